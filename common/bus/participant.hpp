@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "common/bus/batches.hpp"
+#include "common/core/expected.hpp"
+#include "common/lockstep/messages.hpp"
+
+namespace lukou::bus {
+
+/// Where a run's processes meet.
+struct Address {
+  int domain = 0;   ///< DDS domain id, 0..100
+  std::string run;  ///< discovery tag: other runs' processes neither see nor hear this one
+};
+
+/// Name and version of the DDS implementation that this program was built with.
+std::string library_version();
+
+/// What came with a sample.
+struct SampleInfo {
+  Incarnation producer = 0;
+  std::uint32_t epoch = 1;
+  bool alive = true;  ///< false: no sample, but the news that this producer is gone (its own good-bye included)
+};
+
+/// One process on the bus: owns its DDS entities and the one place to wait at. Not thread-safe: one thread per
+/// participant waits, takes and writes.
+class Participant {
+ public:
+  /// Errors: DDS cannot start in this domain (with Cyclone's reason).
+  static Expected<std::unique_ptr<Participant>> join(const Address& address, Incarnation self);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  [[nodiscard]] Incarnation self() const;
+  /// Returns when some reader has news, or after `timeout_s` of wall time.
+  void wait(double timeout_s);
+  /// What a blocked write asks every 100 ms; it gives up when the answer is false.
+  void keep_writing_while(std::function<bool()> question);
+
+  struct Entities;
+  [[nodiscard]] Entities& entities() { return *entities_; }
+
+ private:
+  explicit Participant(std::unique_ptr<Entities> entities);
+  std::unique_ptr<Entities> entities_;
+};
+
+/// Typed end of a topic. Batch types: AirBatch, RoadsideBatch, SignalBatch, TrafficBatch; streams: Control, Up, RunState,
+/// View. Lockstep topics are reliable with a writer history of 512 steps; readers keep all.
+template <class Batch>
+class Writer {
+ public:
+  explicit Writer(Participant& participant);
+  /// `epoch`: of the writing process, for lockstep topics. Returns false only if the write was given up.
+  bool write(const Batch& batch, std::uint32_t epoch = 1);
+  /// Incarnations of the processes whose readers this writer reaches.
+  [[nodiscard]] std::set<Incarnation> matched() const;
+
+ private:
+  Participant& participant_;
+  std::int32_t entity_ = 0;
+};
+
+template <class Batch>
+class Reader {
+ public:
+  explicit Reader(Participant& participant);
+  /// Hands over everything that has come in, in order; the batch may be moved or swapped from.
+  void take(const std::function<void(Batch&, const SampleInfo&)>& receive);
+  [[nodiscard]] std::set<Incarnation> matched() const;
+
+ private:
+  Participant& participant_;
+  std::int32_t entity_ = 0;
+  Batch scratch_{};
+};
+
+}  // namespace lukou::bus

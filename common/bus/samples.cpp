@@ -1,0 +1,246 @@
+#include "common/bus/samples.hpp"
+
+namespace lukou::bus {
+namespace {
+
+template <class T, class Sequence>
+void lend_column(const std::vector<T>& column, Sequence& sequence) {
+  sequence._buffer = const_cast<T*>(column.data());
+  sequence._length = sequence._maximum = static_cast<std::uint32_t>(column.size());
+  sequence._release = false;
+}
+
+template <class Sequence>
+void lend_strings(const std::vector<std::string>& column, Sequence& sequence, std::vector<char*>& pointers) {
+  pointers.clear();
+  for (const std::string& text : column) pointers.push_back(const_cast<char*>(text.c_str()));
+  sequence._buffer = pointers.data();
+  sequence._length = sequence._maximum = static_cast<std::uint32_t>(pointers.size());
+  sequence._release = false;
+}
+
+char* lend_string(const std::string& text) { return const_cast<char*>(text.c_str()); }
+
+template <class T, class Sequence>
+void copy_column(const Sequence& sequence, std::vector<T>& column) {
+  column.assign(sequence._buffer, sequence._buffer + sequence._length);
+}
+
+template <class Sequence>
+void copy_strings(const Sequence& sequence, std::vector<std::string>& column) {
+  column.assign(sequence._buffer, sequence._buffer + sequence._length);
+}
+
+void copy_string(const char* text, std::string& target) { target = text == nullptr ? "" : text; }
+
+// The columns of both directions, once: `move` is lend_column or copy_column.
+template <class Plain, class Sample, class Move>
+void frames_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.sender, sample.sender), move(plain.sequence, sample.sequence_number), move(plain.kind, sample.kind);
+  move(plain.wire_bytes, sample.wire_bytes), move(plain.antenna_x_m, sample.antenna_x_m);
+  move(plain.antenna_y_m, sample.antenna_y_m), move(plain.payload_end, sample.payload_end);
+  move(plain.payload, sample.payload);
+}
+
+template <class Plain, class Sample, class Move>
+void signal_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.heads, sample.heads), move(plain.change_lane, sample.change_lane);
+  move(plain.change_aspect, sample.change_aspect), move(plain.change_step, sample.change_step);
+}
+
+template <class Plain, class Sample, class Move>
+void traffic_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.vehicle, sample.vehicle), move(plain.lane, sample.lane), move(plain.state, sample.state);
+  move(plain.equipped, sample.equipped), move(plain.position_m, sample.position_m);
+  move(plain.speed_mps, sample.speed_mps), move(plain.acceleration_mps2, sample.acceleration_mps2);
+  move(plain.commanded_mps2, sample.commanded_mps2), move(plain.noise_mps2, sample.noise_mps2);
+  move(plain.arrived, sample.arrived), move(plain.waiting, sample.waiting);
+  move(plain.arrived_equipped, sample.arrived_equipped), move(plain.waiting_equipped, sample.waiting_equipped);
+  move(plain.entered_vehicle, sample.entered_vehicle), move(plain.entered_lane, sample.entered_lane);
+  move(plain.entered_equipped, sample.entered_equipped), move(plain.entered_speed_mps, sample.entered_speed_mps);
+  move(plain.entered_desired_speed_mps, sample.entered_desired_speed_mps);
+  move(plain.crossed_vehicle, sample.crossed_vehicle), move(plain.crossed_time_s, sample.crossed_time_s);
+  move(plain.crossed_aspect, sample.crossed_aspect), move(plain.crossed_committed, sample.crossed_committed);
+  move(plain.left_vehicle, sample.left_vehicle), move(plain.left_time_s, sample.left_time_s);
+  move(plain.fate_vehicle, sample.fate_vehicle), move(plain.fate_rsu, sample.fate_rsu);
+  move(plain.fate_sequence, sample.fate_sequence), move(plain.fate, sample.fate);
+  move(plain.fate_again, sample.fate_again), move(plain.heard_epoch, sample.heard_epoch);
+}
+
+template <class Plain, class Sample, class Move>
+void view_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.vehicle, sample.vehicle), move(plain.lane, sample.lane), move(plain.equipped, sample.equipped);
+  move(plain.position_m, sample.position_m), move(plain.speed_mps, sample.speed_mps), move(plain.heads, sample.heads);
+}
+
+constexpr auto kLend = [](const auto& column, auto& sequence) { lend_column(column, sequence); };
+constexpr auto kCopy = [](auto& column, const auto& sequence) { copy_column(sequence, column); };
+
+}  // namespace
+
+void lend(const AirBatch& batch, lukou_bus_Air& sample, Scratch&) {
+  sample.step = batch.step;
+  frames_columns(batch.frames, sample.frames, kLend);
+}
+
+void copy(const lukou_bus_Air& sample, AirBatch& batch) {
+  batch.step = sample.step;
+  frames_columns(batch.frames, sample.frames, kCopy);
+}
+
+void lend(const RoadsideBatch& batch, lukou_bus_Roadside& sample, Scratch&) {
+  sample.step = batch.step;
+  sample.rsu = batch.rsu;
+  sample.frames_heard = batch.frames_heard;
+  sample.frames_malformed = batch.frames_malformed;
+  sample.answers_malformed = batch.answers_malformed;
+  frames_columns(batch.frames, sample.frames, kLend);
+}
+
+void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch) {
+  batch.step = sample.step;
+  batch.rsu = sample.rsu;
+  batch.epoch = sample.epoch;
+  batch.frames_heard = sample.frames_heard;
+  batch.frames_malformed = sample.frames_malformed;
+  batch.answers_malformed = sample.answers_malformed;
+  frames_columns(batch.frames, sample.frames, kCopy);
+}
+
+void lend(const SignalBatch& batch, lukou_bus_Signal& sample, Scratch&) {
+  sample.step = batch.step;
+  sample.first = batch.first;
+  signal_columns(batch, sample, kLend);
+}
+
+void copy(const lukou_bus_Signal& sample, SignalBatch& batch) {
+  batch.step = sample.step;
+  batch.first = sample.first;
+  signal_columns(batch, sample, kCopy);
+}
+
+void lend(const TrafficBatch& batch, lukou_bus_Traffic& sample, Scratch&) {
+  sample.step = batch.step;
+  sample.guard_interventions = batch.guard_interventions;
+  sample.overflow = batch.overflow;
+  traffic_columns(batch, sample, kLend);
+}
+
+void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch) {
+  batch.step = sample.step;
+  batch.guard_interventions = sample.guard_interventions;
+  batch.overflow = sample.overflow;
+  traffic_columns(batch, sample, kCopy);
+}
+
+void lend(const Control& message, lukou_bus_Control& sample, Scratch& scratch) {
+  sample.clock = message.clock;
+  sample.sequence_number = message.sequence;
+  sample.kind = static_cast<std::uint8_t>(message.kind);
+  sample.to = message.to;
+  sample.epoch = message.epoch;
+  sample.rsu = message.rsu;
+  sample.through = message.through;
+  sample.last = message.last;
+  sample.ok = message.ok;
+  sample.roster_version = message.roster_version;
+  lend_column(message.roster_incarnation, sample.roster_incarnation);
+  lend_strings(message.roster_role, sample.roster_role, scratch.strings_a);
+  lend_column(message.directive_step, sample.directive_step);
+  lend_strings(message.directive_set, sample.directive_set, scratch.strings_b);
+  lend_column(message.attach_rsu, sample.attach_rsu);
+  lend_column(message.attach_epoch, sample.attach_epoch);
+  lend_column(message.attach_from, sample.attach_from);
+  sample.text = lend_string(message.text);
+  sample.culprit = lend_string(message.culprit);
+}
+
+void copy(const lukou_bus_Control& sample, Control& message) {
+  message.clock = sample.clock;
+  message.sequence = sample.sequence_number;
+  message.kind = static_cast<Control::Kind>(sample.kind);
+  message.to = sample.to;
+  message.epoch = sample.epoch;
+  message.rsu = sample.rsu;
+  message.through = sample.through;
+  message.last = sample.last;
+  message.ok = sample.ok;
+  message.roster_version = sample.roster_version;
+  copy_column(sample.roster_incarnation, message.roster_incarnation);
+  copy_strings(sample.roster_role, message.roster_role);
+  copy_column(sample.directive_step, message.directive_step);
+  copy_strings(sample.directive_set, message.directive_set);
+  copy_column(sample.attach_rsu, message.attach_rsu);
+  copy_column(sample.attach_epoch, message.attach_epoch);
+  copy_column(sample.attach_from, message.attach_from);
+  copy_string(sample.text, message.text);
+  copy_string(sample.culprit, message.culprit);
+}
+
+void lend(const Up& message, lukou_bus_Up& sample, Scratch&) {
+  sample.incarnation = message.incarnation;
+  sample.kind = static_cast<std::uint8_t>(message.kind);
+  sample.role = lend_string(message.role);
+  sample.protocol = message.protocol;
+  sample.number = message.number;
+  sample.step = message.step;
+  sample.text = lend_string(message.text);
+  sample.hash = lend_string(message.hash);
+}
+
+void copy(const lukou_bus_Up& sample, Up& message) {
+  message.incarnation = sample.incarnation;
+  message.kind = static_cast<Up::Kind>(sample.kind);
+  copy_string(sample.role, message.role);
+  message.protocol = sample.protocol;
+  message.number = sample.number;
+  message.step = sample.step;
+  copy_string(sample.text, message.text);
+  copy_string(sample.hash, message.hash);
+}
+
+void lend(const RunState& message, lukou_bus_RunState& sample, Scratch&) {
+  sample.run = lend_string(message.run);
+  sample.phase = static_cast<std::uint8_t>(message.phase);
+  sample.granted = message.granted;
+  sample.recorded = message.recorded;
+  sample.end = message.end;
+  sample.pace = message.pace;
+  sample.text = lend_string(message.text);
+  sample.culprit = lend_string(message.culprit);
+}
+
+void copy(const lukou_bus_RunState& sample, RunState& message) {
+  copy_string(sample.run, message.run);
+  message.phase = static_cast<RunPhase>(sample.phase);
+  message.granted = sample.granted;
+  message.recorded = sample.recorded;
+  message.end = sample.end;
+  message.pace = sample.pace;
+  copy_string(sample.text, message.text);
+  copy_string(sample.culprit, message.culprit);
+}
+
+void lend(const View& message, lukou_bus_View& sample, Scratch&) {
+  sample.step = message.step;
+  sample.arrived = message.arrived;
+  sample.waiting = message.waiting;
+  sample.in_system = message.in_system;
+  sample.left = message.left;
+  sample.standing = message.standing;
+  sample.mean_stop_time_s = message.mean_stop_time_s;
+  view_columns(message, sample, kLend);
+}
+
+void copy(const lukou_bus_View& sample, View& message) {
+  message.step = sample.step;
+  message.arrived = sample.arrived;
+  message.waiting = sample.waiting;
+  message.in_system = sample.in_system;
+  message.left = sample.left;
+  message.standing = sample.standing;
+  message.mean_stop_time_s = sample.mean_stop_time_s;
+  view_columns(message, sample, kCopy);
+}
+
+}  // namespace lukou::bus

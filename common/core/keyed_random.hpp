@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+namespace lukou {
+
+/// What a draw is for. The value is part of the key: never renumber, only append.
+enum class Purpose : std::uint16_t {
+  kArrivalGap = 1,       ///< unit exponential of arrival n on an approach
+  kDesiredSpeed = 2,     ///< a driver's share of the limit
+  kInitialSpeed = 3,     ///< speed at the entrance
+  kLane = 4,             ///< choice among the safe lanes
+  kEquipped = 5,         ///< compared with the equipped ratio
+  kActuationNoise = 6,   ///< noise on the acceleration, index = step
+  kTemporaryId = 7,      ///< the 8-byte id in the BSM
+  kTest = 100,           ///< tests
+};
+
+/// A draw is a pure function of its key: neither order nor other draws can change it.
+struct DrawKey {
+  std::uint64_t run_seed = 0;
+  Purpose purpose = Purpose::kTest;
+  std::uint32_t entity = 0;  ///< whose draw: a vehicle, an approach, a link
+  std::uint64_t index = 0;   ///< which one of the entity's draws of this purpose
+};
+
+/// 64 random bits. Philox4x32-10 (Salmon et al. 2011, through Random123).
+std::uint64_t random_bits(const DrawKey& key);
+/// Uniform in the open interval (0, 1), 52 bits.
+double uniform01(const DrawKey& key);
+/// Exponential with mean 1.
+double unit_exponential(const DrawKey& key);
+/// Normal with mean 0 and standard deviation 1, by inversion.
+double standard_normal(const DrawKey& key);
+/// Normal(mean, deviation) truncated to [low, high] by rejection; attempt n uses index + n.
+/// Requires that [low, high] holds at least 1 % of the mass.
+double truncated_normal(const DrawKey& key, double mean, double deviation, double low, double high);
+
+}  // namespace lukou

@@ -1,0 +1,7 @@
+#include "common/core/version.hpp"
+
+namespace lukou {
+
+std::string_view version() { return LUKOU_VERSION; }
+
+}  // namespace lukou

@@ -1,0 +1,397 @@
+#include "common/lockstep/clock_core.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace lukou {
+namespace {
+
+std::string seconds_text(Step step) {
+  return std::to_string(step / kStepsPerSecond) + "." + std::to_string(step % kStepsPerSecond) + " s";
+}
+
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+Expected<double> pace_of(const std::string& text) {
+  static const std::map<std::string, double> kWords = {
+      {"max", 0.0}, {"very-slow", 0.1}, {"slow", 1.0}, {"medium", 10.0}, {"fast", 100.0}};
+  if (const auto word = kWords.find(text); word != kWords.end()) return word->second;
+  const auto value = number_in(text);
+  if (value && *value > 0.0 && *value <= 1e6) return *value;
+  return Error{"pace", "`" + text + "` is not a pace; use max, very-slow, slow, medium, fast or a factor in (0, 1000000]"};
+}
+
+ClockCore::ClockCore(ClockSettings settings)
+    : settings_(std::move(settings)),
+      rsus_(settings_.rsus),
+      end_(settings_.end),
+      directives_(settings_.replay),
+      pace_(settings_.pace) {
+  if (settings_.start_paused) hold_at_ = 0;
+}
+
+Control& ClockCore::send(Control::Kind kind, Incarnation to) {
+  Control& control = outbox_.emplace_back();
+  control.kind = kind;
+  control.clock = settings_.incarnation;
+  control.sequence = sequence_++;
+  control.to = to;
+  return control;
+}
+
+std::vector<Control> ClockCore::take_outbox() { return std::exchange(outbox_, {}); }
+
+std::vector<std::pair<Incarnation, std::string>> ClockCore::roster() const {
+  std::vector<std::pair<Incarnation, std::string>> list;
+  for (const auto& [incarnation, member] : members_) list.emplace_back(incarnation, member.role);
+  return list;
+}
+
+std::vector<std::string> ClockCore::missing_roles() const {
+  std::vector<std::string> missing = roles_of_a_run(settings_.rsus);
+  for (const auto& [incarnation, member] : members_) std::erase(missing, member.role);
+  return missing;
+}
+
+void ClockCore::receive(double now_s, const Up& message) {
+  if (message.kind == Up::Kind::kJoin) return join(now_s, message);
+  if (message.kind == Up::Kind::kRequest) return request(now_s, message);
+  if (message.kind == Up::Kind::kLost) {
+    for (const auto& [incarnation, member] : members_)
+      if (member.role == message.role) return lost(now_s, incarnation, RunOutcome::Kind::kLost, message.text);
+    // A process that never joined: nobody to fence, the run cannot form.
+    if (phase_ == RunPhase::kForming) end({RunOutcome::Kind::kLost, message.role, message.text, recorded_});
+    return;
+  }
+  const auto found = members_.find(message.incarnation);
+  if (found == members_.end()) return;
+  Member& member = found->second;
+  member.heard_s = now_s;
+  switch (message.kind) {
+    case Up::Kind::kSees:
+      member.sees = std::max(member.sees, static_cast<std::uint32_t>(message.number));
+      start_when_all_see(now_s);
+      break;
+    case Up::Kind::kProgress:
+      if (message.step > member.progress) progress_s_ = now_s;
+      member.progress = message.step;
+      member.waiting_for = message.text;
+      break;
+    case Up::Kind::kCredit:
+      progress_s_ = now_s;
+      recorded_ = std::max(recorded_, message.step);
+      grant(now_s);
+      break;
+    case Up::Kind::kReceipt: {
+      if (message.number >= rsus_.size()) break;
+      rsus_[message.number].fenced = false;
+      grant(now_s);
+      break;
+    }
+    case Up::Kind::kClosed:
+      recorded_ = std::max(recorded_, message.step);
+      if (!outcome_) {
+        const auto kind = !message.text.empty() ? RunOutcome::Kind::kAnomaly
+                          : !stopped_.empty()   ? RunOutcome::Kind::kStopped
+                                                : RunOutcome::Kind::kDone;
+        end({kind, "", message.text, message.step});
+      }
+      break;
+    case Up::Kind::kLeave: members_.erase(found); break;
+    case Up::Kind::kJoin:
+    case Up::Kind::kRequest:
+    case Up::Kind::kLost: break;
+  }
+}
+
+void ClockCore::join(double now_s, const Up& message) {
+  if (members_.contains(message.incarnation) || outcome_) return;
+  const auto refuse = [&](const std::string& why) { send(Control::Kind::kRefuse, message.incarnation).text = why; };
+  if (message.protocol != kProtocolVersion) {
+    return refuse("speaks protocol version " + std::to_string(message.protocol) + ", the run speaks " +
+                  std::to_string(kProtocolVersion));
+  }
+  if (!message.hash.empty() && message.hash != settings_.scenario_hash) {
+    return refuse("was started for the scenario with hash " + message.hash + ", the run's is " +
+                  settings_.scenario_hash);
+  }
+  const auto missing = missing_roles();
+  if (std::ranges::find(missing, message.role) == missing.end()) {
+    return refuse("role `" + message.role + "` is unknown or taken; vacant: " +
+                  (missing.empty() ? std::string("none") : missing.front()));
+  }
+  const int rsu = rsu_index(message.role);
+  if (rsu >= 0 && rsus_[static_cast<std::size_t>(rsu)].fenced) return;  // it asks again; receipts come first
+  Member member{.role = message.role, .heard_s = now_s};
+  if (rsu >= 0) {
+    RsuLife& life = rsus_[static_cast<std::size_t>(rsu)];
+    member.epoch = ++life.epoch;
+    life.attach_due = phase_ != RunPhase::kForming;
+    member.attached = !life.attach_due;
+  }
+  Control& welcome = send(Control::Kind::kWelcome, message.incarnation);
+  welcome.epoch = member.epoch;
+  welcome.text = settings_.scenario_text;
+  for (std::size_t i = 0; i < directives_sent_; ++i) {
+    welcome.directive_step.push_back(directives_[i].step);
+    welcome.directive_set.push_back(directives_[i].set);
+  }
+  members_.emplace(message.incarnation, std::move(member));
+  progress_s_ = now_s;
+  if (missing_roles().empty() || phase_ != RunPhase::kForming) publish_roster();
+}
+
+void ClockCore::publish_roster() {
+  Control& roster = send(Control::Kind::kRoster);
+  roster.roster_version = ++roster_version_;
+  roster.roster_incarnation.push_back(settings_.incarnation);
+  roster.roster_role.emplace_back(kClockRole);
+  for (const auto& [incarnation, member] : members_) {
+    roster.roster_incarnation.push_back(incarnation);
+    roster.roster_role.push_back(member.role);
+  }
+}
+
+void ClockCore::sees(double now_s, std::uint32_t roster_version) {
+  clock_sees_ = std::max(clock_sees_, roster_version);
+  start_when_all_see(now_s);
+}
+
+void ClockCore::start_when_all_see(double now_s) {
+  if (roster_version_ == 0 || clock_sees_ < roster_version_ || outcome_) return;
+  for (const auto& [incarnation, member] : members_)
+    if (member.sees < roster_version_) return;
+  if (phase_ == RunPhase::kForming) {
+    phase_ = RunPhase::kRunning;
+    pace_from_s_ = now_s;
+    pace_from_step_ = 0;
+  }
+  for (auto& [incarnation, member] : members_) member.attached = true;
+  progress_s_ = now_s;
+  grant(now_s);
+}
+
+bool ClockCore::rsu_awaited() const {
+  if (settings_.on_rsu_loss != RsuLossPolicy::kWait) return false;
+  for (const RsuLife& life : rsus_)
+    if (life.fenced || life.attach_due) return true;
+  return !missing_roles().empty();
+}
+
+Step ClockCore::budget(double now_s) {
+  Step through = std::min({end_, hold_at_, recorded_ + settings_.credit});
+  if (pace_ > 0.0 && hold_at_ == kNever) {
+    const double elapsed_s = now_s - pace_from_s_;
+    const Step paced = pace_from_step_ + static_cast<Step>(elapsed_s * pace_ * static_cast<double>(kStepsPerSecond));
+    // A run that cannot keep the pace does not catch up later.
+    const Step behind = std::max<Step>(settings_.credit, static_cast<Step>(pace_ * static_cast<double>(kStepsPerSecond)));
+    if (paced > through_ + behind) {
+      pace_from_s_ = now_s;
+      pace_from_step_ = through_;
+    }
+    through = std::min(through, std::max<Step>(paced, 0));
+  }
+  return through;
+}
+
+void ClockCore::grant(double now_s) {
+  if (phase_ != RunPhase::kRunning && phase_ != RunPhase::kPaused) return;
+  if (rsu_awaited() && std::ranges::any_of(members_, [](const auto& m) { return !m.second.attached; })) return;
+  if (rsu_awaited() && !missing_roles().empty()) return;
+  const Step through = std::max(budget(now_s), through_);
+  const bool last = through >= end_;
+  const bool news = through > through_ || (last && !last_sent_);
+  phase_ = through >= hold_at_ && !last ? RunPhase::kPaused : RunPhase::kRunning;
+  if (!news) return;
+  Control& grant = send(Control::Kind::kGrant);
+  grant.through = through;
+  grant.last = last;
+  if (last) grant.text = stopped_;
+  for (; directives_sent_ < directives_.size(); ++directives_sent_) {
+    grant.directive_step.push_back(directives_[directives_sent_].step);
+    grant.directive_set.push_back(directives_[directives_sent_].set);
+  }
+  for (const auto& [incarnation, member] : members_) {
+    const int rsu = rsu_index(member.role);
+    if (rsu < 0 || !member.attached || !rsus_[static_cast<std::size_t>(rsu)].attach_due) continue;
+    rsus_[static_cast<std::size_t>(rsu)].attach_due = false;
+    grant.attach_rsu.push_back(static_cast<std::uint32_t>(rsu));
+    grant.attach_epoch.push_back(member.epoch);
+    // All that its first step needs is published after it could be heard.
+    const EdgeTiming signal = signal_timing(settings_.signal_promise);
+    grant.attach_from.push_back(through_ + 1 + signal.delay + signal.stride);
+  }
+  through_ = through;
+  if (last) {
+    last_sent_ = true;
+    phase_ = RunPhase::kEnding;
+  }
+}
+
+void ClockCore::request(double now_s, const Up& message) {
+  const auto space = message.text.find(' ');
+  const std::string verb = message.text.substr(0, space);
+  const std::string argument = space == std::string::npos ? "" : message.text.substr(space + 1);
+  const auto answer = execute(now_s, verb, argument);
+  Control& reply = send(Control::Kind::kReply, message.incarnation);
+  reply.ok = answer.ok();
+  reply.text = answer ? answer.value() : answer.error().text();
+  grant(now_s);
+}
+
+Expected<std::string> ClockCore::execute(double now_s, const std::string& verb, const std::string& argument) {
+  if (outcome_ || phase_ == RunPhase::kEnding) return Error{verb, "the run is ending"};
+  // "at 300": a simulated time for pause and stop.
+  std::optional<Step> at;
+  if (argument.starts_with("at ")) {
+    const auto at_s = number_in(argument.substr(3));
+    if (!at_s || *at_s < 0.0 || *at_s > 1e9) return Error{verb, "`" + argument + "` is not a time; use `at SECONDS`"};
+    at = std::max(step_at_or_after(*at_s), through_);
+  }
+  if (verb == "pause") {
+    hold_at_ = at.value_or(std::max<Step>(through_, 0));
+    return "pauses at step " + std::to_string(hold_at_) + " (" + seconds_text(hold_at_) + ")";
+  }
+  if (verb == "resume") {
+    hold_at_ = kNever;
+    pace_from_s_ = now_s;
+    pace_from_step_ = std::max<Step>(through_, 0);
+    return std::string("runs");
+  }
+  if (verb == "step") {
+    const auto count = argument.empty() ? std::optional<double>(1.0) : number_in(argument);
+    if (!count || *count < 1.0 || *count > 1e9 || *count != std::floor(*count)) {
+      return Error{verb, "`" + argument + "` is not a number of steps; use a whole number of at least 1"};
+    }
+    const Step from = hold_at_ == kNever ? std::max<Step>(through_, 0) : hold_at_;
+    hold_at_ = from + static_cast<Step>(*count);
+    return "pauses at step " + std::to_string(hold_at_) + " (" + seconds_text(hold_at_) + ")";
+  }
+  if (verb == "pace") {
+    const auto pace = pace_of(argument);
+    if (!pace) return pace.error();
+    pace_ = pace.value();
+    pace_from_s_ = now_s;
+    pace_from_step_ = std::max<Step>(through_, 0);
+    return "pace " + argument;
+  }
+  if (verb == "stop" || verb == "interrupt") {
+    end_ = std::min(end_, at.value_or(std::max<Step>(through_, 0)));
+    hold_at_ = kNever;
+    if (end_ < settings_.end) stopped_ = verb == "stop" ? "stopped" : "interrupted";
+    return "ends at step " + std::to_string(end_) + " (" + seconds_text(end_) + ")";
+  }
+  if (verb == "set") return change(argument);
+  return Error{verb, "is not a request; use pause, resume, step, pace, stop or set"};
+}
+
+Expected<std::string> ClockCore::change(const std::string& set) {
+  if (!settings_.check_change) return Error{"set", "this run takes no changes"};
+  if (auto checked = settings_.check_change(set); !checked) return checked.error();
+  const Step step = std::max<Step>(through_ + 1, 1);
+  directives_.push_back({step, set});
+  return set + " from step " + std::to_string(step) + " (" + seconds_text(step) + ")";
+}
+
+void ClockCore::gone(double now_s, Incarnation incarnation) {
+  // Under a debugger a process stands still for minutes: only the launcher's word counts then.
+  if (members_.contains(incarnation) && settings_.watchdog) {
+    lost(now_s, incarnation, RunOutcome::Kind::kLost, "is gone: its process ended or does not run any more");
+  }
+}
+
+void ClockCore::lost(double now_s, Incarnation incarnation, RunOutcome::Kind kind, const std::string& how) {
+  const Member member = members_.at(incarnation);
+  members_.erase(incarnation);
+  if (outcome_) return;
+  const int rsu = rsu_index(member.role);
+  if (rsu >= 0 && settings_.on_rsu_loss != RsuLossPolicy::kAbort && phase_ != RunPhase::kForming) {
+    fence(static_cast<std::uint32_t>(rsu));
+    progress_s_ = now_s;
+    return;
+  }
+  end({kind, member.role, how, recorded_});
+}
+
+void ClockCore::fence(std::uint32_t rsu) {
+  RsuLife& life = rsus_[rsu];
+  life.fenced = true;
+  life.attach_due = false;
+  Control& fence = send(Control::Kind::kFence);
+  fence.rsu = rsu;
+  fence.epoch = life.epoch;
+}
+
+void ClockCore::end(RunOutcome outcome) {
+  outcome_ = std::move(outcome);
+  const bool aborted = outcome_->kind == RunOutcome::Kind::kLost || outcome_->kind == RunOutcome::Kind::kStalled;
+  phase_ = aborted ? RunPhase::kAborted : RunPhase::kEnded;
+  Control& last = send(aborted ? Control::Kind::kAbort : Control::Kind::kEnded);
+  last.text = outcome_->text;
+  last.culprit = outcome_->culprit;
+}
+
+void ClockCore::tick(double now_s) {
+  if (started_s_ < 0.0) started_s_ = progress_s_ = ticked_s_ = now_s;
+  // A stopped host (Ctrl-Z, a suspended laptop) makes every deadline look missed: start them again.
+  if (now_s - ticked_s_ > 1.0) {
+    started_s_ += now_s - ticked_s_;
+    progress_s_ = now_s;
+  }
+  ticked_s_ = now_s;
+  grant(now_s);
+  watch(now_s);
+}
+
+void ClockCore::watch(double now_s) {
+  if (!settings_.watchdog || outcome_) return;
+  if (phase_ == RunPhase::kForming) {
+    if (now_s - started_s_ < settings_.forming_limit_s) return;
+    const auto missing = missing_roles();
+    const std::string who = missing.empty() ? "everybody joined, but not all see each other" : missing.front();
+    end({RunOutcome::Kind::kLost, missing.empty() ? std::string(kClockRole) : missing.front(),
+         "did not join within " + std::to_string(static_cast<int>(settings_.forming_limit_s)) + " s (missing: " + who + ")",
+         recorded_});
+    return;
+  }
+  // Nothing is due while the run is held or waits for the wall clock.
+  const bool all_done = std::ranges::all_of(members_, [&](const auto& m) { return m.second.progress >= through_; });
+  if (all_done && phase_ != RunPhase::kEnding) {
+    progress_s_ = now_s;
+    return;
+  }
+  if (now_s - progress_s_ < settings_.stall_limit_s) return;
+  // All stand still; the culprit is whoever waits for nobody.
+  for (const auto& [incarnation, member] : members_) {
+    if (!member.waiting_for.empty()) continue;
+    const std::string role = member.role;
+    return lost(now_s, incarnation, RunOutcome::Kind::kStalled,
+                "has not finished step " + std::to_string(member.progress + 1) + " for " +
+                    std::to_string(static_cast<int>(now_s - progress_s_)) + " s");
+  }
+  end({RunOutcome::Kind::kStalled, std::string(kClockRole), "no participant makes progress and none says why", recorded_});
+}
+
+RunState ClockCore::state() const {
+  RunState state{.run = settings_.run, .phase = phase_, .granted = through_, .recorded = recorded_, .end = end_,
+                 .pace = pace_};
+  if (phase_ == RunPhase::kForming) {
+    for (const std::string& role : missing_roles()) state.text += (state.text.empty() ? "" : " ") + role;
+  }
+  if (outcome_) {
+    state.text = outcome_->text;
+    state.culprit = outcome_->culprit;
+  }
+  return state;
+}
+
+}  // namespace lukou

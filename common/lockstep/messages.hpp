@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/core/directive.hpp"
+#include "common/core/step.hpp"
+#include "common/lockstep/roster.hpp"
+
+namespace lukou {
+
+/// Version of the step protocol and of idl/bus.idl; members with another are refused.
+inline constexpr std::uint32_t kProtocolVersion = 1;
+
+/// One process start; random, so that a restarted process is somebody else.
+using Incarnation = std::uint64_t;
+
+/// From the clock to the members: one ordered stream, checked by `sequence`.
+struct Control {
+  enum class Kind : std::uint8_t {
+    kWelcome = 1,  ///< to one: you are in, with epoch and scenario
+    kRefuse = 2,   ///< to one: why not
+    kRoster = 3,   ///< who takes part; answer with Sees once every endpoint is matched
+    kGrant = 4,    ///< you may execute steps through `through`; `last` = no step follows it
+    kFence = 5,    ///< the RSU `rsu` of `epoch` is gone: cut its edge at what is in hand, answer with Receipt
+    kEnded = 6,    ///< the run is over and recorded: leave
+    kAbort = 7,    ///< the run ends unfinished; `text` says why, `culprit` who
+    kReply = 8,    ///< to one: the answer to its request
+  };
+  Kind kind = Kind::kGrant;
+  Incarnation clock = 0;      ///< the sender
+  std::uint64_t sequence = 0;
+  Incarnation to = 0;         ///< 0 = everybody
+  std::uint32_t epoch = 0;    ///< Welcome, Fence
+  std::uint32_t rsu = 0;      ///< Fence
+  Step through = -1;          ///< Grant
+  bool last = false;          ///< Grant
+  bool ok = true;             ///< Reply
+  std::uint32_t roster_version = 0;
+  std::vector<Incarnation> roster_incarnation;  ///< Roster; parallel to roster_role
+  std::vector<std::string> roster_role;
+  std::vector<Step> directive_step;        ///< Grant: new ones; Welcome: all so far; parallel to directive_set
+  std::vector<std::string> directive_set;
+  std::vector<std::uint32_t> attach_rsu;   ///< Grant: RSUs that take part again; three parallel arrays
+  std::vector<std::uint32_t> attach_epoch;
+  std::vector<Step> attach_from;
+  std::string text;     ///< Refuse, Abort, Reply; Welcome: the resolved scenario; last Grant: "", "stopped", "interrupted"
+  std::string culprit;  ///< Abort: role
+};
+
+/// From everybody to the clock.
+struct Up {
+  enum class Kind : std::uint8_t {
+    kJoin = 1,      ///< role, protocol, hash (may be empty)
+    kSees = 2,      ///< number = roster version whose members are all matched
+    kProgress = 3,  ///< step = last one executed; text = whom it waits for ("" = nobody)
+    kCredit = 4,    ///< recorder: step = last one committed
+    kReceipt = 5,   ///< number = RSU, step = first step not heard of it
+    kRequest = 6,   ///< operator: text = verb and argument
+    kClosed = 7,    ///< recorder: the record is safe; step = complete to; text = anomaly, "" if none
+    kLeave = 8,
+    kLost = 9,      ///< launcher: the child with this role has ended; text = how
+  };
+  Kind kind = Kind::kProgress;
+  Incarnation incarnation = 0;
+  std::string role;  ///< of the sender; Lost: of the lost one
+  std::uint32_t protocol = kProtocolVersion;
+  std::uint64_t number = 0;
+  Step step = -1;
+  std::string text;
+  std::string hash;  ///< Join: sha256 of the scenario the member was built for; "" = takes the clock's
+};
+
+enum class RunPhase : std::uint8_t { kForming = 0, kRunning = 1, kPaused = 2, kEnding = 3, kEnded = 4, kAborted = 5 };
+std::string_view name(RunPhase phase);
+
+/// From the clock to observers, on change and a few times a second.
+struct RunState {
+  std::string run;
+  RunPhase phase = RunPhase::kForming;
+  Step granted = -1;
+  Step recorded = -1;
+  Step end = 0;         ///< last step that the run plans
+  double pace = 0.0;    ///< asked, simulated seconds per second; 0 = as fast as possible
+  std::string text;     ///< kForming: who is missing; kAborted: why
+  std::string culprit;  ///< kAborted: role
+};
+
+/// From the recorder to observers, at most 30 times a second of wall time.
+struct View {
+  Step step = 0;
+  std::uint32_t arrived = 0;
+  std::uint32_t waiting = 0;
+  std::uint32_t in_system = 0;
+  std::uint32_t left = 0;
+  std::uint32_t standing = 0;
+  double mean_stop_time_s = 0.0;  ///< per car on the road so far
+  // The picture.
+  std::vector<std::uint32_t> vehicle;
+  std::vector<std::uint8_t> lane;
+  std::vector<std::uint8_t> equipped;
+  std::vector<double> position_m;
+  std::vector<double> speed_mps;
+  std::vector<std::uint8_t> heads;  ///< Aspect of the twelve lanes
+};
+
+}  // namespace lukou

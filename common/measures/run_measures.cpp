@@ -1,0 +1,214 @@
+#include "common/measures/run_measures.hpp"
+
+#include <algorithm>
+
+#include "common/core/contract.hpp"
+#include "common/measures/free_motion.hpp"
+
+namespace lukou {
+namespace {
+
+constexpr auto kExit = static_cast<std::uint8_t>(CarState::kExit);
+constexpr double kSecondsPerHour = 3600.0;
+
+std::optional<double> ratio(double sum, std::uint64_t count) {
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+std::uint64_t sum(const std::vector<std::uint32_t>& column) {
+  std::uint64_t total = 0;
+  for (const std::uint32_t value : column) total += value;
+  return total;
+}
+
+}  // namespace
+
+RunMeasures::RunMeasures(const MeasureParameters& parameters)
+    : parameters_(parameters), warmup_step_(step_at_or_after(parameters.warmup_s)) {}
+
+RunMeasures::Record& RunMeasures::record(std::uint32_t vehicle) {
+  Records& records = records_[vehicle % kApproaches];
+  const std::uint32_t n = vehicle / kApproaches;
+  LUKOU_EXPECT(n >= records.first && n - records.first < records.cars.size());
+  return records.cars[n - records.first];
+}
+
+void RunMeasures::add(const TrafficBatch& batch) {
+  LUKOU_EXPECT(batch.step == step_ + 1);
+  step_ = batch.step;
+  finished_.clear();
+  if (step_ > warmup_step_) ++measured_steps_;
+  add_entries(batch);
+  add_motion(batch);
+  add_crossings(batch);
+  add_departures(batch);
+  add_fates(batch);
+  equipped_.arrived = sum(batch.arrived_equipped);
+  equipped_.waiting = sum(batch.waiting_equipped);
+  unequipped_.arrived = sum(batch.arrived) - equipped_.arrived;
+  unequipped_.waiting = sum(batch.waiting) - equipped_.waiting;
+  totals_.guard_interventions += batch.guard_interventions;
+}
+
+void RunMeasures::add_entries(const TrafficBatch& batch) {
+  for (std::size_t i = 0; i < batch.entered_vehicle.size(); ++i) {
+    Record entering;
+    FinishedCar& car = entering.car;
+    car.vehicle = batch.entered_vehicle[i];
+    car.lane = static_cast<Lane>(batch.entered_lane[i]);
+    car.equipped = batch.entered_equipped[i] != 0;
+    car.entered_s = time_s(batch.step);
+    car.initial_speed_mps = batch.entered_speed_mps[i];
+    car.theoretical_time_s = theoretical_time_s(parameters_.road.approach_m, car.initial_speed_mps,
+                                                parameters_.speed_limit_mps, parameters_.acceleration_max_mps2);
+    entering.free_time_s = free_time_s({.initial_mps = car.initial_speed_mps,
+                                        .desired_mps = batch.entered_desired_speed_mps[i],
+                                        .relaxation_s = parameters_.speed_relaxation_s,
+                                        .acceleration_max_mps2 = parameters_.acceleration_max_mps2},
+                                       parameters_.road.approach_m + parameters_.road.exit_m);
+    entering.counts = batch.step >= warmup_step_;
+    Records& records = records_[car.vehicle % kApproaches];
+    LUKOU_EXPECT(car.vehicle / kApproaches == records.first + records.cars.size());
+    ++sums(entering).entered;
+    records.cars.push_back(entering);
+  }
+}
+
+void RunMeasures::add_motion(const TrafficBatch& batch) {
+  for (LaneTotals& lane : lanes_) lane.standing_now = 0;
+  const bool measured = step_ > warmup_step_;
+  for (std::size_t i = 0; i < batch.vehicle.size(); ++i) {
+    Record& seen = record(batch.vehicle[i]);
+    const double position_m = batch.position_m[i];
+    if (position_m < seen.position_m) ++totals_.reversals;
+    seen.position_m = position_m;
+    if (i > 0 && batch.lane[i - 1] == batch.lane[i]) {
+      const double distance_m = batch.position_m[i - 1] - position_m;
+      if (!totals_.min_head_distance_m || distance_m < *totals_.min_head_distance_m) {
+        totals_.min_head_distance_m = distance_m;
+      }
+      const bool overlapping = distance_m < parameters_.vehicle_length_m;
+      if (overlapping && !seen.overlapping) ++totals_.collisions;
+      seen.overlapping = overlapping;
+    }
+    if (batch.state[i] == kExit) continue;
+    const double speed_mps = batch.speed_mps[i];
+    LaneTotals& lane = lanes_[batch.lane[i]];
+    if (speed_mps < parameters_.stop_speed_mps) {
+      ++seen.car.standing_steps;
+      ++lane.standing_steps;
+      ++lane.standing_now;
+      if (measured) ++sums(seen).queued_steps;
+      if (seen.armed) {
+        ++seen.car.stops;
+        ++lane.stops;
+        seen.armed = false;
+      }
+    } else if (speed_mps > parameters_.stop_rearm_mps) {
+      seen.armed = true;
+    }
+  }
+}
+
+void RunMeasures::add_crossings(const TrafficBatch& batch) {
+  for (std::size_t i = 0; i < batch.crossed_vehicle.size(); ++i) {
+    Record& crossing = record(batch.crossed_vehicle[i]);
+    FinishedCar& car = crossing.car;
+    car.act_time_s = batch.crossed_time_s[i] - car.entered_s;
+    car.delta_s = car.act_time_s - car.theoretical_time_s;
+    ++lanes_[index(car.lane)].crossed;
+    if (batch.crossed_aspect[i] == static_cast<std::uint8_t>(Aspect::kRed)) ++totals_.red_crossings;
+    Sums& group = sums(crossing);
+    if (batch.crossed_time_s[i] >= parameters_.warmup_s) ++group.crossed_after_warmup;
+    if (!crossing.counts) continue;
+    ++group.crossed;
+    group.delta_s += car.delta_s;
+    group.standing_steps += car.standing_steps;
+    group.stops += car.stops;
+  }
+}
+
+void RunMeasures::add_departures(const TrafficBatch& batch) {
+  for (std::size_t i = 0; i < batch.left_vehicle.size(); ++i) {
+    Record& leaving = record(batch.left_vehicle[i]);
+    FinishedCar& car = leaving.car;
+    car.left_s = batch.left_time_s[i];
+    car.delay_s = car.left_s - car.entered_s - leaving.free_time_s;
+    leaving.left = true;
+    finished_.push_back(car);
+    Sums& group = sums(leaving);
+    ++group.left_ever;
+    if (!leaving.counts) continue;
+    ++group.left;
+    group.delay_s += car.delay_s;
+  }
+  std::ranges::stable_sort(finished_, {}, &FinishedCar::left_s);
+  for (Records& records : records_) {
+    while (!records.cars.empty() && records.cars.front().left) {
+      records.cars.pop_front();
+      ++records.first;
+    }
+  }
+}
+
+void RunMeasures::add_fates(const TrafficBatch& batch) {
+  for (std::size_t i = 0; i < batch.fate.size(); ++i) {
+    LUKOU_EXPECT(batch.fate[i] < kAdviceFates);
+    if (batch.fate_again[i] != 0) {
+      --totals_.advice_by_fate[static_cast<std::size_t>(AdviceFate::kApplied)];
+    } else {
+      ++totals_.advice_sent;
+    }
+    ++totals_.advice_by_fate[batch.fate[i]];
+  }
+}
+
+RunMeasures::Sums& RunMeasures::Sums::operator+=(const Sums& other) {
+  arrived += other.arrived;
+  waiting += other.waiting;
+  entered += other.entered;
+  left_ever += other.left_ever;
+  crossed_after_warmup += other.crossed_after_warmup;
+  crossed += other.crossed;
+  left += other.left;
+  delta_s += other.delta_s;
+  delay_s += other.delay_s;
+  standing_steps += other.standing_steps;
+  stops += other.stops;
+  queued_steps += other.queued_steps;
+  return *this;
+}
+
+GroupFigures RunMeasures::figures_of(const Sums& sums) const {
+  GroupFigures group;
+  group.vehicles_arrived = sums.arrived;
+  group.vehicles_entered = sums.entered;
+  group.vehicles_left = sums.left_ever;
+  group.vehicles_waiting = sums.waiting;
+  const double hours = (time_s(step_) - parameters_.warmup_s) / kSecondsPerHour;
+  if (hours > 0.0) {
+    group.throughput_intersection_veh_per_h = static_cast<double>(sums.crossed_after_warmup) / hours;
+    group.throughput_veh_per_h = *group.throughput_intersection_veh_per_h / kApproaches;
+  }
+  group.cars = sums.crossed;
+  group.mean_delta_s = ratio(sums.delta_s, sums.crossed);
+  group.mean_delay_s = ratio(sums.delay_s, sums.left);
+  group.mean_stop_time_s =
+      ratio(static_cast<double>(sums.standing_steps) / static_cast<double>(kStepsPerSecond), sums.crossed);
+  group.stops_per_vehicle = ratio(static_cast<double>(sums.stops), sums.crossed);
+  group.mean_queue_veh = ratio(static_cast<double>(sums.queued_steps), measured_steps_ * kLanes);
+  return group;
+}
+
+RunFigures RunMeasures::figures() const {
+  RunFigures figures = totals_;
+  Sums all = equipped_;
+  all += unequipped_;
+  figures.all = figures_of(all);
+  figures.equipped = figures_of(equipped_);
+  figures.unequipped = figures_of(unequipped_);
+  return figures;
+}
+
+}  // namespace lukou

@@ -1,0 +1,160 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/core/expected.hpp"
+#include "common/messages/frames.hpp"
+#include "common/messages/plane.hpp"
+
+// The Protobuf wire format, written and read directly: a step holds a hundred small payloads, and this costs a tenth of
+// building message objects for them. idl/v2x.proto stays the contract; the tests hold both against each other.
+// Private to this room.
+
+namespace lukou::wire {
+
+/// Appends fields to `out`.
+class Writer {
+ public:
+  explicit Writer(std::vector<std::uint8_t>& out) : out_(out) {}
+
+  void unsigned_field(std::uint32_t field, std::uint64_t value) {
+    varint(field << 3U);
+    varint(value);
+  }
+  /// A field of type sint32.
+  void signed_field(std::uint32_t field, std::int64_t value) {
+    unsigned_field(field, (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63));
+  }
+  void fixed64_field(std::uint32_t field, std::uint64_t value);
+  /// Begins a message in a field; returns what `close` needs.
+  [[nodiscard]] std::size_t open(std::uint32_t field);
+  void close(std::size_t begin);
+
+ private:
+  void varint(std::uint64_t value) {
+    while (value >= 0x80U) {
+      out_.push_back(static_cast<std::uint8_t>(value | 0x80U));
+      value >>= 7U;
+    }
+    out_.push_back(static_cast<std::uint8_t>(value));
+  }
+
+  std::vector<std::uint8_t>& out_;
+};
+
+/// Walks over the fields of a message. Never reads outside its bytes, whatever they hold.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::uint8_t> bytes) : next_(bytes.data()), end_(bytes.data() + bytes.size()) {}
+
+  /// Steps to the next field; false at the end, and at the first field that cannot be decoded.
+  bool next();
+  [[nodiscard]] bool broken() const { return broken_; }
+  /// Number and wire type of the field: what `key` gives. A field of another type than expected is an unknown one.
+  [[nodiscard]] std::uint64_t field() const { return key_; }
+  /// Value of a varint or fixed64 field.
+  [[nodiscard]] std::uint64_t bits() const { return value_; }
+  /// Value of an unsigned field; what no int64 holds becomes the largest.
+  [[nodiscard]] std::int64_t value() const {
+    constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+    return value_ > static_cast<std::uint64_t>(kMost) ? kMost : static_cast<std::int64_t>(value_);
+  }
+  /// Value of a field of type sint32.
+  [[nodiscard]] std::int64_t signed_value() const {
+    return static_cast<std::int64_t>((value_ >> 1U) ^ (~(value_ & 1U) + 1U));
+  }
+  /// Content of a field that holds a message.
+  [[nodiscard]] std::span<const std::uint8_t> message() const { return message_; }
+
+ private:
+  bool varint(std::uint64_t& value);
+  bool fail() {
+    broken_ = true;
+    return false;
+  }
+
+  const std::uint8_t* next_;
+  const std::uint8_t* end_;
+  std::uint64_t key_ = 0;
+  std::uint64_t value_ = 0;
+  std::span<const std::uint8_t> message_;
+  bool broken_ = false;
+};
+
+constexpr std::uint64_t varint_key(std::uint32_t field) { return std::uint64_t{field} << 3U; }
+constexpr std::uint64_t fixed64_key(std::uint32_t field) { return (std::uint64_t{field} << 3U) | 1U; }
+constexpr std::uint64_t message_key(std::uint32_t field) { return (std::uint64_t{field} << 3U) | 2U; }
+
+/// Stands for a field that did not come: below every range.
+inline constexpr std::int64_t kAbsent = std::numeric_limits<std::int64_t>::min();
+
+/// Holds fields against their ranges and remembers the first that fails.
+class Check {
+ public:
+  /// A required field; `low` is above kAbsent.
+  void required(const char* name, std::int64_t value, std::int64_t low, std::int64_t high) {
+    if ((value < low || value > high) && wrong_ == nullptr) wrong_ = name;
+  }
+  void optional(const char* name, std::int64_t value, std::int64_t low, std::int64_t high) {
+    if (value != kAbsent) required(name, value, low, high);
+  }
+  void that(const char* name, bool holds) {
+    if (!holds && wrong_ == nullptr) wrong_ = name;
+  }
+  [[nodiscard]] bool ok() const { return wrong_ == nullptr; }
+  /// Requires !ok().
+  [[nodiscard]] Error error(const char* message) const {
+    return {message, std::string(wrong_) + " is missing or out of its range"};
+  }
+
+ private:
+  const char* wrong_ = nullptr;
+};
+
+/// The integer nearest to `value` * `units_per_si`, saturated to [low, high]; `if_nan` if there is none.
+inline std::int64_t to_units(double value, double units_per_si, std::int64_t low, std::int64_t high,
+                             std::int64_t if_nan) {
+  const double scaled = value * units_per_si;
+  if (!(scaled > static_cast<double>(low))) return scaled <= static_cast<double>(low) ? low : if_nan;
+  if (scaled >= static_cast<double>(high)) return high;
+  return static_cast<std::int64_t>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
+}
+
+inline constexpr std::int64_t kCountMax = 127;
+inline constexpr std::int64_t kSecondMarkMax = 59'999;
+inline constexpr std::int64_t kMinuteMax = 527'039;
+inline constexpr std::int64_t kSpeedMax = 8190;
+inline constexpr double kSpeedUnitsPerMps = 50.0;
+inline constexpr std::int64_t kAccelerationMax = 2000;
+inline constexpr std::int64_t kOffsetMax = 8'388'607;
+
+/// A Position3D or PositionOffset as it came.
+struct RawPosition {
+  std::int64_t latitude_e7 = kAbsent;
+  std::int64_t longitude_e7 = kAbsent;
+  bool broken = false;
+};
+void write_position(Writer& writer, std::uint32_t field, std::int64_t latitude_e7, std::int64_t longitude_e7);
+/// Writes `point` as an offset from the reference, saturated.
+void write_offset(Writer& writer, std::uint32_t field, const PlanePoint& point);
+void read_position(std::span<const std::uint8_t> bytes, RawPosition& position);
+/// Checks an absolute position (a sentinel is in range) or an offset.
+void check_position(Check& check, const char* name, const RawPosition& position);
+void check_offset(Check& check, const char* name, const RawPosition& offset);
+/// The point of a checked offset from a checked reference; empty if that is unavailable or the sum leaves the globe.
+std::optional<PlanePoint> point_at(const RawPosition& reference, const RawPosition& offset);
+
+/// Longitudinal acceleration of an AccelerationSet [cm/s2], kAbsent if it is not there or the bytes are broken.
+std::int64_t read_acceleration(std::span<const std::uint8_t> bytes);
+void write_acceleration(Writer& writer, std::uint32_t field, std::int64_t longitudinal_cmps2);
+
+/// Closes a frame whose payload has been appended.
+void finish_frame(Frames& frames, const Envelope& envelope, FrameKind kind, std::uint32_t wire_bytes);
+
+}  // namespace lukou::wire

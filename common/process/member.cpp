@@ -1,0 +1,180 @@
+#include "common/process/member.hpp"
+
+#include <utility>
+
+#include "common/process/environment.hpp"
+
+namespace lukou::process {
+namespace {
+
+constexpr double kWait_s = 0.1;
+constexpr double kHeartbeat_s = 0.2;
+constexpr double kJoinAgain_s = 0.05;
+
+}  // namespace
+
+int MemberEnd::exit_code() const {
+  switch (kind) {
+    case Kind::kEnded: return kExitDone;
+    case Kind::kAborted:
+    case Kind::kClockLost:
+    case Kind::kFenced: return kExitAborted;
+    case Kind::kTerminated: return kExitTerminated;
+  }
+  return kExitInternal;
+}
+
+Expected<std::unique_ptr<Member>> Member::create(Settings settings) {
+  auto participant = bus::Participant::join(settings.address, new_incarnation());
+  if (!participant) return participant.error();
+  return std::unique_ptr<Member>(new Member(std::move(settings), std::move(participant).value()));
+}
+
+Member::Member(Settings settings, std::unique_ptr<bus::Participant> participant)
+    : settings_(std::move(settings)), participant_(std::move(participant)), control_(*participant_), up_(*participant_) {
+  faces(Topic::kControl, control_, false);
+  faces(Topic::kUp, up_, true);
+  participant_->keep_writing_while([this] {
+    poll();
+    return running();
+  });
+}
+
+void Member::send(Up message) {
+  message.incarnation = participant_->self();
+  message.role = settings_.role;
+  up_.write(message);
+}
+
+Expected<std::string> Member::join() {
+  const double begin_s = wall_s();
+  double asked_s = begin_s - 1.0;
+  while (!scenario_ && !refused_ && running()) {
+    if (wall_s() - asked_s >= kJoinAgain_s) {
+      asked_s = wall_s();
+      send({.kind = Up::Kind::kJoin});
+    }
+    participant_->wait(kJoinAgain_s / 5);
+    poll();
+    if (settings_.watchdog && wall_s() - begin_s > settings_.join_limit_s) {
+      return Error{"run " + settings_.address.run, "no clock answers in DDS domain " +
+                                                       std::to_string(settings_.address.domain) + " under the tag lukou-" +
+                                                       settings_.address.run + "; `lukou ctl list` names the runs"};
+    }
+  }
+  if (refused_) return *refused_;
+  if (!scenario_) return Error{"run " + settings_.address.run, "ended before this process could join"};
+  return *scenario_;
+}
+
+void Member::poll() {
+  control_.take([this](Control& control, const bus::SampleInfo& info) {
+    if (info.alive) return receive(control);
+    if (info.producer == clock_ && running() && settings_.watchdog) {
+      end_ = MemberEnd{MemberEnd::Kind::kClockLost, std::string(kClockRole), "the clock is gone"};
+    }
+  });
+  if (roster_open_) check_roster();
+  if (stop_signal() != 0 && running()) {
+    end_ = MemberEnd{MemberEnd::Kind::kTerminated, "", "ended by a signal"};
+  }
+}
+
+void Member::receive(const Control& control) {
+  const bool to_me = control.to == participant_->self();
+  if (sequence_ && control.sequence != *sequence_ + 1) {
+    end_ = MemberEnd{MemberEnd::Kind::kAborted, settings_.role,
+                     "lost a control message (expected number " + std::to_string(*sequence_ + 1) + ", got " +
+                         std::to_string(control.sequence) + ")"};
+    return;
+  }
+  sequence_ = control.sequence;
+  if (control.to != 0 && !to_me) return;
+  switch (control.kind) {
+    case Control::Kind::kWelcome:
+      clock_ = control.clock;
+      scenario_ = control.text;
+      epoch_ = control.epoch;
+      if (epoch_ == 1) first_step_ = 0;
+      for (std::size_t i = 0; i < control.directive_step.size(); ++i)
+        directives_.push_back({control.directive_step[i], control.directive_set[i]});
+      return;
+    case Control::Kind::kRefuse: refused_ = Error{"run " + settings_.address.run, "refused: " + control.text}; return;
+    case Control::Kind::kReply: return;
+    default: break;
+  }
+  if (!scenario_) return;  // what is said to others before this process takes part
+  switch (control.kind) {
+    case Control::Kind::kRoster:
+      roster_.clear();
+      for (std::size_t i = 0; i < control.roster_incarnation.size(); ++i)
+        roster_[control.roster_incarnation[i]] = control.roster_role[i];
+      roster_version_ = control.roster_version;
+      roster_open_ = true;
+      break;
+    case Control::Kind::kGrant:
+      for (std::size_t i = 0; i < control.directive_step.size(); ++i)
+        directives_.push_back({control.directive_step[i], control.directive_set[i]});
+      for (std::size_t i = 0; i < control.attach_rsu.size(); ++i) {
+        if (rsu_role(control.attach_rsu[i]) == settings_.role && control.attach_epoch[i] == epoch_) {
+          first_step_ = control.attach_from[i];
+        } else if (attach_) {
+          attach_(control.attach_rsu[i], control.attach_epoch[i], control.attach_from[i]);
+        }
+      }
+      through_ = control.through;
+      if (control.last) {
+        last_ = control.through;
+        stopped_ = control.text;
+      }
+      break;
+    case Control::Kind::kFence:
+      if (rsu_role(control.rsu) == settings_.role && control.epoch == epoch_) {
+        end_ = MemberEnd{MemberEnd::Kind::kFenced, settings_.role, "the run goes on without this process"};
+      } else if (fence_) {
+        send({.kind = Up::Kind::kReceipt, .number = control.rsu, .step = fence_(control.rsu, control.epoch)});
+      }
+      break;
+    case Control::Kind::kEnded: end_ = MemberEnd{MemberEnd::Kind::kEnded, "", control.text}; break;
+    case Control::Kind::kAbort: end_ = MemberEnd{MemberEnd::Kind::kAborted, control.culprit, control.text}; break;
+    default: break;
+  }
+}
+
+void Member::check_roster() {
+  for (const Endpoint& endpoint : endpoints_) {
+    const auto matched = endpoint.matched();
+    for (const auto& [incarnation, role] : roster_) {
+      const bool faces = endpoint.writer ? reads(role, endpoint.topic) : writes(role, endpoint.topic);
+      if (faces && incarnation != participant_->self() && !matched.contains(incarnation)) return;
+    }
+  }
+  roster_open_ = false;
+  send({.kind = Up::Kind::kSees, .number = roster_version_});
+}
+
+std::vector<Directive> Member::due(Step step) {
+  std::vector<Directive> now;
+  while (directives_due_ < directives_.size() && directives_[directives_due_].step <= step)
+    now.push_back(directives_[directives_due_++]);
+  return now;
+}
+
+void Member::heartbeat() {
+  const double now_s = wall_s();
+  if (now_s - heartbeat_s_ < kHeartbeat_s) return;
+  heartbeat_s_ = now_s;
+  send({.kind = Up::Kind::kProgress, .step = progress_, .text = waiting_for_});
+}
+
+void Member::wait(const std::string& for_whom) {
+  waiting_for_ = for_whom;
+  heartbeat();
+  participant_->wait(roster_open_ ? kJoinAgain_s / 5 : kWait_s);
+  waiting_for_.clear();
+  poll();
+}
+
+void Member::leave() { send({.kind = Up::Kind::kLeave, .step = progress_}); }
+
+}  // namespace lukou::process

@@ -1,0 +1,172 @@
+#include "common/scenario/check.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "common/scenario/arrivals.hpp"
+#include "common/scenario/plan.hpp"
+#include "common/scenario/wording.hpp"
+
+namespace lukou::scenario {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+/// Finds what is wrong and remembers it.
+class Checker {
+ public:
+  explicit Checker(const Scenario& scenario) : scenario_(scenario) {}
+
+  std::vector<Finding> run() && {
+    fields_of(scenario_, {});
+    demands();
+    drivers();
+    for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
+    return std::move(findings_);
+  }
+
+ private:
+  void add(const FieldPath& path, const std::string& what, std::vector<FieldPath> also = {}) {
+    findings_.push_back({path, std::move(also), text(path) + " " + what, ""});
+  }
+
+  /// The rules of each field: required, range, step grid, names of enums.
+  void fields_of(const Message& message, const FieldPath& path) {
+    const Descriptor* type = message.GetDescriptor();
+    for (int i = 0; i < type->field_count(); ++i) {
+      const FieldDescriptor* field = type->field(i);
+      if (field->message_type() != nullptr) {
+        for (int n = 0; n < count(message, field); ++n) {
+          const int index = field->is_repeated() ? n : -1;
+          fields_of(element(message, field, index), extended(path, field, index));
+        }
+      } else if (!field->is_repeated() && has(message, field)) {
+        value_of(message, field, extended(path, field));
+      } else if (!field->is_repeated() && !has_fallback(field) && !is_demand_arm(field)) {
+        findings_.push_back({path,
+                             {},
+                             text(extended(path, field)) + " is missing; it takes " +
+                                 (range(field).empty() ? expectation(field) : "a number" + range(field)),
+                             ""});
+      }
+    }
+  }
+
+  void value_of(const Message& message, const FieldDescriptor* field, const FieldPath& path) {
+    const auto* reflection = message.GetReflection();
+    switch (field->cpp_type()) {
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        number(reflection->GetDouble(message, field), field, path);
+        break;
+      case FieldDescriptor::CPPTYPE_UINT32:
+        number(reflection->GetUInt32(message, field), field, path);
+        break;
+      case FieldDescriptor::CPPTYPE_ENUM: {
+        const int value = reflection->GetEnumValue(message, field);
+        if (value != 0 && field->enum_type()->FindValueByNumber(value) != nullptr) break;
+        add(path, "is " + (value == 0 ? field->enum_type()->value(0)->name() : std::to_string(value)) + ", must be " +
+                      expectation(field));
+        break;
+      }
+      default:
+        break;
+    }
+  }
+
+  static std::string range(const FieldDescriptor* field) {
+    const FieldRule& said = rule_of(field);
+    if (said.has_min() && said.has_max()) {
+      return " within [" + number_text(said.min()) + ", " + number_text(said.max()) + "]" + unit_text(field);
+    }
+    return "";
+  }
+
+  void number(double value, const FieldDescriptor* field, const FieldPath& path) {
+    const FieldRule& said = rule_of(field);
+    const std::string given = "is " + number_text(value) + unit_text(field) + ", must be";
+    if (!std::isfinite(value) || (said.has_min() && value < said.min()) || (said.has_max() && value > said.max())) {
+      add(path, given + (range(field).empty() ? " a finite number" : range(field)));
+    } else if (on_step_grid(field) && std::fabs(value * 10.0 - std::round(value * 10.0)) > 1e-6) {
+      add(path, given + " a multiple of 0.1 s, the length of a step");
+    }
+  }
+
+  void demands() {
+    for (const Approach approach : kAllApproaches) {
+      const Demand& demand = demand_of(scenario_, approach);
+      const FieldPath path = demand_path(approach);
+      one_arm(demand, path);
+      const LaneShares& shares = demand.shares();
+      if (shares.left() == 0.0 && shares.center() == 0.0 && shares.right() == 0.0) {
+        add(extended(path, "shares"), "are all 0, at least one lane must have a share");
+      }
+      for (int i = 1; i < demand.flow_series_size(); ++i) {
+        const double before = demand.flow_series(i - 1).from_s();
+        if (demand.flow_series(i).from_s() > before) continue;
+        add(extended(extended(path, "flow_series", i), "from_s"), "is " + number_text(demand.flow_series(i).from_s()) +
+                                                                      " s, must be after the point before it, " +
+                                                                      number_text(before) + " s");
+      }
+      if (!demand.has_arrivals_csv()) continue;
+      const auto trace = read_arrivals(demand.arrivals_csv(), approach);
+      if (trace.ok()) continue;
+      const FieldPath csv = extended(path, "arrivals_csv");
+      findings_.push_back({csv, {}, trace.error().what, trace.error().where});
+      if (findings_.back().where.empty()) findings_.back().what = text(csv) + ": " + trace.error().what;
+    }
+  }
+
+  void one_arm(const Demand& demand, const FieldPath& path) {
+    std::vector<FieldPath> given;
+    std::vector<std::string> names;
+    for (const char* arm : {"flow_veh_per_h", "flow_series", "arrivals_csv"}) {
+      const FieldDescriptor* field = Demand::descriptor()->FindFieldByName(arm);
+      if (!has(demand, field)) continue;
+      given.push_back(extended(path, field, field->is_repeated() ? 0 : -1));
+      names.emplace_back(arm);
+    }
+    if (given.size() < 2) return;
+    findings_.push_back(
+        {given.back(), {}, text(path) + " has " + joined(names, " and ") + "; give one of them alone", ""});
+  }
+
+  void drivers() {
+    const FieldPath driving = path_to({"driving"});
+    const auto field = [&](const char* name) { return extended(driving, name); };
+    const Driving& d = scenario_.driving();
+    if (d.desired_speed_min() > d.desired_speed_max()) {
+      add(field("desired_speed_min"),
+          "is " + number_text(d.desired_speed_min()) + ", must not be above desired_speed_max, " +
+              number_text(d.desired_speed_max()),
+          {field("desired_speed_max")});
+    } else if (d.desired_speed_mean() < d.desired_speed_min() || d.desired_speed_mean() > d.desired_speed_max()) {
+      add(field("desired_speed_mean"),
+          "is " + number_text(d.desired_speed_mean()) + ", must be within [desired_speed_min, desired_speed_max], [" +
+              number_text(d.desired_speed_min()) + ", " + number_text(d.desired_speed_max()) + "]",
+          {field("desired_speed_min"), field("desired_speed_max")});
+    } else if (d.desired_speed_max() - d.desired_speed_min() < 0.05 * d.desired_speed_deviation()) {
+      // The draw rejects what lies outside the interval: with less than 1 % of the mass inside it would not end.
+      add(field("desired_speed_deviation"),
+          "is " + number_text(d.desired_speed_deviation()) +
+              ", must not be above 20 times the width of [desired_speed_min, desired_speed_max]",
+          {field("desired_speed_min"), field("desired_speed_max")});
+    }
+    if (d.stop_rearm_kmh() <= d.stop_speed_kmh()) {
+      add(field("stop_rearm_kmh"),
+          "is " + number_text(d.stop_rearm_kmh()) + " km/h, must be above stop_speed_kmh, " +
+              number_text(d.stop_speed_kmh()) + " km/h",
+          {field("stop_speed_kmh")});
+    }
+  }
+
+  const Scenario& scenario_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> check(const Scenario& scenario) { return Checker(scenario).run(); }
+
+}  // namespace lukou::scenario

@@ -1,0 +1,54 @@
+#include "common/scenario/defaults.hpp"
+
+#include "common/core/contract.hpp"
+#include "common/scenario/parse.hpp"
+
+namespace lukou::scenario {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+/// Whether something else that is present stands in the place of an absent field.
+bool is_replaced(const Message& message, const FieldDescriptor* field) {
+  if (field == Signals::descriptor()->FindFieldByName("preset")) {
+    return has(message, Signals::descriptor()->FindFieldByName("plan"));
+  }
+  if (!is_demand_arm(field)) return false;
+  const Descriptor* demand = Demand::descriptor();
+  for (int i = 0; i < demand->field_count(); ++i) {
+    if (is_demand_arm(demand->field(i)) && has(message, demand->field(i))) return true;
+  }
+  return false;
+}
+
+/// A message is created when it is absent, unless it has a rule of its own: then its absence means something.
+bool is_created(const FieldDescriptor* field) { return !field->options().HasExtension(rule); }
+
+void fill(Message& message) {
+  const Descriptor* type = message.GetDescriptor();
+  const auto* reflection = message.GetReflection();
+  for (int i = 0; i < type->field_count(); ++i) {
+    const FieldDescriptor* field = type->field(i);
+    const bool is_message = field->message_type() != nullptr;
+    if (field->is_repeated()) {
+      for (int n = 0; is_message && n < reflection->FieldSize(message, field); ++n) {
+        fill(*reflection->MutableRepeatedMessage(&message, field, n));
+      }
+    } else if (is_message) {
+      if (has(message, field) || is_created(field)) fill(*reflection->MutableMessage(&message, field));
+    } else if (!has(message, field) && has_fallback(field) && !is_replaced(message, field)) {
+      LUKOU_EXPECT(parse_value(rule_of(field).fallback(), field, message).empty());
+    }
+  }
+}
+
+}  // namespace
+
+void fill_defaults(Scenario& scenario) {
+  if (scenario.rsus_size() == 0) scenario.add_rsus();
+  fill(scenario);
+}
+
+}  // namespace lukou::scenario

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/core/step.hpp"
+#include "common/scenario/scenario.hpp"
+
+namespace lukou::scenario {
+
+/// What the step protocol needs to know of a scenario.
+struct Protocol {
+  std::uint64_t seed = 0;
+  Step end = 0;                ///< last step
+  Step signal_promise = 0;     ///< steps
+  std::uint32_t rsus = 0;
+  std::string on_rsu_loss;     ///< "ABORT", "CONTINUE" or "WAIT"
+};
+Protocol protocol(const Resolved& scenario);
+inline Step signal_promise(const Resolved& scenario) { return protocol(scenario).signal_promise; }
+
+/// Applies accepted changes ("path=value") in their order; true if there was one. They were checked by the clock, so a
+/// failure here is a bug.
+template <class Directives>
+bool apply(Resolved& scenario, const Directives& directives) {
+  for (const auto& directive : directives) {
+    const auto done = change(scenario, directive.set);
+    LUKOU_EXPECT(done.ok());
+  }
+  return !directives.empty();
+}
+
+}  // namespace lukou::scenario

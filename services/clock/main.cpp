@@ -1,0 +1,162 @@
+#include <cmath>
+
+#include "common/bus/participant.hpp"
+#include "common/lockstep/clock_core.hpp"
+#include "common/process/options.hpp"
+#include "common/process/stepping.hpp"
+#include "common/scenario/directive_log.hpp"
+#include "common/scenario/scenario_steps.hpp"
+
+using namespace lukou;
+
+namespace {
+
+constexpr double kStateEvery_s = 0.1;
+constexpr double kGoodbye_s = 2.0;
+constexpr double kPacedTick_s = 0.02;
+constexpr double kIdleTick_s = 0.1;
+
+/// The clock's endpoints and what they carry between the bus and the core.
+class ClockOnTheBus {
+ public:
+  ClockOnTheBus(bus::Participant& participant, ClockCore& core)
+      : participant_(participant), core_(core), up_(participant), control_(participant), state_(participant) {}
+
+  void receive() {
+    up_.take([this](Up& message, const bus::SampleInfo& info) {
+      if (info.alive) {
+        core_.receive(process::wall_s(), message);
+      } else {
+        core_.gone(process::wall_s(), info.producer);
+      }
+    });
+    if (core_.roster_version() > seen_ && sees_all()) {
+      seen_ = core_.roster_version();
+      core_.sees(process::wall_s(), seen_);
+    }
+  }
+
+  void send() {
+    for (const Control& control : core_.take_outbox()) control_.write(control);
+    const RunState now = core_.state();
+    const double now_s = process::wall_s();
+    const bool changed = now.phase != told_.phase || now.text != told_.text;
+    if (changed || now_s - told_s_ >= kStateEvery_s) {
+      state_.write(now);
+      told_ = now;
+      told_s_ = now_s;
+    }
+  }
+
+ private:
+  [[nodiscard]] bool sees_all() const {
+    const auto heard = up_.matched();
+    const auto reached = control_.matched();
+    for (const auto& [incarnation, role] : core_.roster())
+      if (!heard.contains(incarnation) || !reached.contains(incarnation)) return false;
+    return true;
+  }
+
+  bus::Participant& participant_;
+  ClockCore& core_;
+  bus::Reader<Up> up_;
+  bus::Writer<Control> control_;
+  bus::Writer<RunState> state_;
+  std::uint32_t seen_ = 0;
+  RunState told_;
+  double told_s_ = -1.0;
+};
+
+int exit_code(const RunOutcome& outcome) {
+  switch (outcome.kind) {
+    case RunOutcome::Kind::kDone:
+    case RunOutcome::Kind::kStopped: return process::kExitDone;
+    case RunOutcome::Kind::kAnomaly: return process::kExitAnomaly;
+    case RunOutcome::Kind::kLost:
+    case RunOutcome::Kind::kStalled: return process::kExitAborted;
+  }
+  return process::kExitInternal;
+}
+
+RsuLossPolicy policy_of(const std::string& name) {
+  if (name == "CONTINUE") return RsuLossPolicy::kContinue;
+  return name == "WAIT" ? RsuLossPolicy::kWait : RsuLossPolicy::kAbort;
+}
+
+/// Settings from the command line and the scenario; the live checks keep the clock's own copy of the scenario.
+Expected<ClockSettings> settings_of(const process::MemberOptions& options, scenario::Resolved& scenario) {
+  ClockSettings settings;
+  const scenario::Protocol protocol = scenario::protocol(scenario);
+  settings.run = options.address.run;
+  settings.scenario_text = scenario::text(scenario);
+  settings.scenario_hash = scenario::hash(scenario);
+  settings.rsus = protocol.rsus;
+  settings.end = protocol.end;
+  settings.signal_promise = protocol.signal_promise;
+  settings.on_rsu_loss = policy_of(protocol.on_rsu_loss);
+  settings.start_paused = options.has("--wait");
+  settings.watchdog = !options.has("--no-watchdog");
+  if (options.has("--pace")) {
+    const auto pace = pace_of(options.value("--pace"));
+    if (!pace) return pace.error();
+    settings.pace = pace.value();
+  }
+  for (const auto& [name, limit] : {std::pair{"--stall-limit", &settings.stall_limit_s},
+                                    std::pair{"--forming-limit", &settings.forming_limit_s}}) {
+    if (!options.has(name)) continue;
+    *limit = std::atof(options.value(name).c_str());
+    if (!(*limit > 0.0)) return Error{name, "must be a number of seconds above 0"};
+  }
+  if (options.has("--replay-directives")) {
+    const auto log = scenario::load_directives(options.value("--replay-directives"));
+    if (!log) return log.error();
+    settings.replay = log.value().sets;
+    if (log.value().stop) settings.end = std::min(settings.end, *log.value().stop);
+  }
+  settings.check_change = [&scenario](const std::string& set) { return scenario::change(scenario, set); };
+  return settings;
+}
+
+int run(int argc, char** argv) {
+  const auto options = process::member_options(
+      argc, argv, "The simulated time of a run: start, pace, pause, end.",
+      {process::kNoWatchdog,
+       {"--scenario", "resolved scenario file"},
+       {"--pace", "max, very-slow, slow, medium, fast or simulated seconds per second"},
+       {"--wait", "hold the run at step 0", true},
+       {"--replay-directives", "directives.textproto of an earlier run"},
+       {"--stall-limit", "wall seconds without progress after which a run is aborted"},
+       {"--forming-limit", "wall seconds in which everybody must have joined"}});
+  if (!options) return std::stoi(options.error().what);
+  process::catch_terminate_signal();
+  auto scenario = scenario::load(options.value().value("--scenario"));
+  if (!scenario) return process::report_start(scenario.error(), process::kExitUsage);
+  auto settings = settings_of(options.value(), scenario.value());
+  if (!settings) return process::report_start(settings.error(), process::kExitUsage);
+
+  const auto participant = bus::Participant::join(options.value().address, process::new_incarnation());
+  if (!participant) return process::report_start(participant.error(), process::kExitAborted);
+  settings.value().incarnation = participant.value()->self();
+  ClockCore core(settings.value());
+  ClockOnTheBus clock(*participant.value(), core);
+  const bool watchdog = settings.value().watchdog;
+  participant.value()->keep_writing_while([] { return process::stop_signal() == 0; });
+
+  double over_s = 0.0;
+  while (!core.all_left() && (over_s == 0.0 || process::wall_s() - over_s < kGoodbye_s)) {
+    participant.value()->wait(core.state().pace > 0.0 ? kPacedTick_s : kIdleTick_s);
+    clock.receive();
+    core.tick(process::wall_s());
+    clock.send();
+    if (core.outcome() && over_s == 0.0) over_s = process::wall_s();
+    if (process::stop_signal() != 0 && (watchdog || over_s != 0.0)) return process::kExitTerminated;
+  }
+  if (!core.outcome()->text.empty()) process::log_error(core.outcome()->culprit + " " + core.outcome()->text);
+  return exit_code(*core.outcome());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return process::guarded("clock", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/bus/participant.hpp"
+#include "common/core/expected.hpp"
+
+namespace lukou::control {
+
+/// An operator's way into a run: an observer that may ask the clock for things.
+class RunClient {
+ public:
+  /// `with_view`: also takes the picture that the recorder publishes.
+  static Expected<std::unique_ptr<RunClient>> attach(const bus::Address& address, bool with_view);
+
+  /// Waits up to `timeout_s` for news and takes them.
+  void poll(double timeout_s);
+  [[nodiscard]] const std::optional<RunState>& state() const { return state_; }
+  [[nodiscard]] const std::optional<View>& view() const { return view_; }
+  /// True once the clock hears this client and is heard by it.
+  [[nodiscard]] bool connected() const;
+
+  /// Asks the clock ("pause", "set PATH=VALUE", ...) without waiting for the answer.
+  void ask(const std::string& request);
+  /// Asks and waits. Errors: the clock's refusal, or no answer within `limit_s`.
+  Expected<std::string> request(const std::string& request, double limit_s);
+  /// Tells the clock that a process of the run has ended.
+  void report_lost(const std::string& role, const std::string& how);
+
+ private:
+  RunClient(std::unique_ptr<bus::Participant> participant, bool with_view);
+
+  std::unique_ptr<bus::Participant> participant_;
+  bus::Writer<Up> up_;
+  bus::Reader<Control> control_;
+  bus::Reader<RunState> states_;
+  std::optional<bus::Reader<View>> views_;
+  std::optional<RunState> state_;
+  std::optional<View> view_;
+  std::optional<Control> reply_;
+};
+
+}  // namespace lukou::control

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/core/expected.hpp"
+
+namespace lukou::launch {
+
+/// A DDS domain id that belongs to one run on this host (network namespace): claimed by binding an abstract Unix socket,
+/// so that two launchers never get the same and the kernel frees it when the launcher dies, however it dies.
+class DomainClaim {
+ public:
+  /// The lowest free id in [0, 100]. `run` is published beside it for `lukou ctl list`.
+  static Expected<DomainClaim> lowest_free(const std::string& run);
+  DomainClaim(DomainClaim&& other) noexcept;
+  DomainClaim& operator=(DomainClaim&& other) noexcept;
+  ~DomainClaim();
+
+  [[nodiscard]] int domain() const { return domain_; }
+
+ private:
+  DomainClaim(int domain, int domain_socket, int run_socket)
+      : domain_(domain), domain_socket_(domain_socket), run_socket_(run_socket) {}
+  int domain_ = -1;
+  int domain_socket_ = -1;
+  int run_socket_ = -1;
+};
+
+struct ListedRun {
+  std::string run;
+  int domain = -1;
+};
+/// Runs of this host, by name.
+std::vector<ListedRun> list_runs();
+/// Ids in [0, 100] that no run has claimed.
+std::vector<int> free_domains();
+
+}  // namespace lukou::launch

@@ -1,0 +1,263 @@
+#include <sched.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "common/process/environment.hpp"
+#include "common/process/log.hpp"
+#include "common/scenario/scenario_steps.hpp"
+#include "services/lukou/control/run_client.hpp"
+#include "services/lukou/launch/child.hpp"
+#include "services/lukou/launch/domain_claim.hpp"
+#include "services/lukou/launch/result_of_run.hpp"
+#include "services/lukou/launch/run_request.hpp"
+
+namespace lukou::launch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPoll_s = 0.05;
+constexpr double kLeave_s = 3.0;   ///< after the clock has left, until SIGTERM
+constexpr double kKill_s = 1.5;    ///< after SIGTERM, until SIGKILL
+
+/// Programs lie beside this one.
+fs::path program(const std::string& name) { return fs::read_symlink("/proc/self/exe").parent_path() / name; }
+
+/// Lockstep has no parallelism to lose: all processes of a run share one core, the next run takes the next one.
+std::optional<int> core_for(const RunRequest& request, int domain) {
+  if (request.core) return request.core;
+  cpu_set_t ours;
+  if (sched_getaffinity(0, sizeof ours, &ours) != 0) return std::nullopt;
+  std::vector<int> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(static_cast<unsigned>(core), &ours)) cores.push_back(core);
+  if (cores.empty()) return std::nullopt;
+  return cores[static_cast<std::size_t>(domain) % cores.size()];
+}
+
+/// One run of processes, from the first fork to the last exit.
+class Session {
+ public:
+  Session(const RunRequest& request, const Listener& listener, fs::path folder, DomainClaim claim, bus::Address address)
+      : request_(request),
+        listener_(listener),
+        folder_(std::move(folder)),
+        claim_(std::move(claim)),
+        address_(std::move(address)),
+        protocol_(scenario::protocol(request.scenario)) {}
+
+  RunReport run() {
+    begun_s_ = process::wall_s();
+    if (auto started = start_all(); !started) return failed(process::kExitInternal, started.error());
+    auto client = control::RunClient::attach(address_, request_.observe);
+    if (!client) return failed(process::kExitAborted, client.error());
+    client_ = std::move(client).value();
+    while (!children_.empty()) {
+      client_->poll(kPoll_s);
+      follow_signals();
+      for (const ChildExit& ended : children_.reap()) on_exit(ended);
+      follow_state();
+      end_stragglers();
+    }
+    return report();
+  }
+
+ private:
+  Expected<Done> start_all() {
+    const std::vector<std::string> environment = {"LUKOU_RUN=" + address_.run,
+                                                  "LUKOU_DOMAIN=" + std::to_string(address_.domain)};
+    const auto member = [&](const std::string& role, const std::string& name, std::vector<std::string> more) {
+      ChildSpec spec{.role = role, .command = {program(name).string()}, .environment = environment,
+                     .core = core_for(request_, address_.domain), .log = folder_ / "operator.log"};
+      if (!request_.watchdog) more.emplace_back("--no-watchdog");
+      spec.command.insert(spec.command.end(), more.begin(), more.end());
+      return children_.start(spec);
+    };
+    std::vector<std::string> clock = {"--scenario", (folder_ / "scenario.textproto").string(), "--pace", request_.pace};
+    if (request_.start_paused) clock.emplace_back("--wait");
+    if (!request_.stall_limit_s.empty()) clock.insert(clock.end(), {"--stall-limit", request_.stall_limit_s});
+    if (!request_.replay.empty()) clock.insert(clock.end(), {"--replay-directives", request_.replay.string()});
+    if (request_.rsu == "wait") clock.insert(clock.end(), {"--forming-limit", "1000000"});
+    if (auto done = member(std::string(kClockRole), "lukou-clock", clock); !done) return done;
+    if (auto done = member(std::string(kEngineRole), "lukou-traffic-engine", {}); !done) return done;
+    if (auto done = member(std::string(kControllerRole), "lukou-signal-controller", {}); !done) return done;
+    if (auto done = member(std::string(kRecorderRole), "lukou-recorder", {"--out", folder_.string()}); !done) return done;
+    for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu) {
+      const std::string index = std::to_string(rsu);
+      if (request_.rsu == "wait") {
+        process::log_warning("start " + rsu_role(rsu) + " by hand: LUKOU_RUN=" + address_.run + " LUKOU_DOMAIN=" +
+                             std::to_string(address_.domain) + " LUKOU_RSU=" + index + " " +
+                             program("lukou-rsu").string() + (request_.watchdog ? "" : " --no-watchdog"));
+      } else if (request_.rsu.empty()) {
+        if (auto done = member(rsu_role(rsu), "lukou-rsu", {"--index", index}); !done) return done;
+      } else {
+        auto variables = environment;
+        variables.push_back("LUKOU_RSU=" + index);
+        ChildSpec spec{.role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + request_.rsu}, .environment = variables};
+        if (auto done = children_.start(spec); !done) return done;
+      }
+    }
+    return Done{};
+  }
+
+  void on_exit(const ChildExit& ended) {
+    const double now_s = process::wall_s();
+    if (ended.role == kClockRole) {
+      clock_gone_s_ = now_s;
+      clock_exit_ = ended;
+      // Nobody ends the others any more: they close what they have.
+      if (!over()) children_.signal_all(SIGTERM), terminated_s_ = now_s;
+      return;
+    }
+    if (ended.role == kRecorderRole && ended.code == process::kExitIo && !ended.signalled) io_failed_ = true;
+    if (!over() && culprit_.empty()) {
+      lost_.push_back(ended);
+      client_->report_lost(ended.role, ended.text());
+    }
+    if (ended.role == kRecorderRole && (ended.signalled || ended.code == process::kExitInternal)) recorder_died_ = true;
+  }
+
+  [[nodiscard]] bool over() const {
+    const auto& state = client_->state();
+    return state && (state->phase == RunPhase::kEnded || state->phase == RunPhase::kAborted);
+  }
+
+  void follow_state() {
+    const auto& state = client_->state();
+    if (!state) return;
+    const double now_s = process::wall_s();
+    if (state->phase != RunPhase::kForming && running_s_ == 0.0) running_s_ = now_s;
+    if (over() && over_s_ == 0.0) {
+      over_s_ = now_s;
+      culprit_ = state->culprit;
+      text_ = state->text;
+    }
+    // A loss may have been said before the clock listened.
+    if (!over() && now_s - said_s_ > 0.5) {
+      said_s_ = now_s;
+      for (const ChildExit& lost : lost_)
+        if (state->phase == RunPhase::kForming) client_->report_lost(lost.role, lost.text());
+    }
+    if (!listener_) return;
+    RunNews news{.run = address_.run, .phase = std::string(name(state->phase)), .step = std::max<Step>(state->recorded, 0),
+                 .end = state->end, .wall_s = running_s_ == 0.0 ? 0.0 : now_s - running_s_, .pace = state->pace};
+    if (client_->view()) {
+      news.step = std::max<long long>(news.step, client_->view()->step);
+      news.cars_in_system = client_->view()->in_system;
+    }
+    if (state->phase == RunPhase::kForming && !state->text.empty()) news.phase += " (missing: " + state->text + ")";
+    listener_(news);
+  }
+
+  void follow_signals() {
+    if (process::stop_signal() == 0 || interrupted_ != 0) return;
+    interrupted_ = process::stop_signal();
+    interrupted_s_ = process::wall_s();
+    client_->ask("interrupt");
+  }
+
+  void end_stragglers() {
+    const double now_s = process::wall_s();
+    const bool forming = !client_->state() || client_->state()->phase == RunPhase::kForming;
+    // An interrupted run ends by itself within a window; one that cannot is ended.
+    if (interrupted_ != 0 && clock_gone_s_ == 0.0 && terminated_s_ == 0.0 &&
+        now_s - interrupted_s_ > (forming ? 0.2 : 5.0)) {
+      children_.signal_all(SIGTERM);
+      terminated_s_ = now_s;
+    }
+    if (clock_gone_s_ != 0.0 && terminated_s_ == 0.0 && now_s - clock_gone_s_ > kLeave_s) {
+      children_.signal_all(SIGTERM);
+      terminated_s_ = now_s;
+    }
+    if (terminated_s_ != 0.0 && now_s - terminated_s_ > kKill_s) children_.signal_all(SIGKILL);
+  }
+
+  RunReport report() {
+    RunEnd end;
+    end.interrupted_by = interrupted_;
+    end.io_failed = io_failed_;
+    end.recorder_died = recorder_died_;
+    end.anomaly = clock_exit_.code == process::kExitAnomaly && !clock_exit_.signalled;
+    if (over_s_ == 0.0 && !clock_exit_.well()) {
+      culprit_ = std::string(kClockRole);
+      text_ = clock_exit_.text();
+    }
+    // What the launcher saw of the culprit says more than the clock's guess.
+    for (const ChildExit& lost : lost_)
+      if (lost.role == culprit_) text_ = lost.text();
+    end.culprit = culprit_;
+    end.text = text_;
+    end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : process::wall_s());
+    end.start_up_s = running_s_ != 0.0 ? running_s_ - begun_s_ : 0.0;
+    return finish_result(request_, folder_, end);
+  }
+
+  RunReport failed(int exit_code, const Error& error) {
+    children_.signal_all(SIGKILL);
+    process::log_error(error.text());
+    RunReport report;
+    report.exit_code = exit_code;
+    report.folder = folder_;
+    report.ended = error.text();
+    return report;
+  }
+
+  const RunRequest& request_;
+  const Listener& listener_;
+  fs::path folder_;
+  DomainClaim claim_;
+  bus::Address address_;
+  scenario::Protocol protocol_;
+  std::unique_ptr<control::RunClient> client_;
+  Children children_;
+  ChildExit clock_exit_;
+  std::vector<ChildExit> lost_;
+  std::string culprit_;
+  std::string text_;
+  bool io_failed_ = false;
+  bool recorder_died_ = false;
+  int interrupted_ = 0;
+  double begun_s_ = 0.0;
+  double running_s_ = 0.0;
+  double over_s_ = 0.0;
+  double said_s_ = 0.0;
+  double interrupted_s_ = 0.0;
+  double clock_gone_s_ = 0.0;
+  double terminated_s_ = 0.0;
+};
+
+std::string run_id(const RunRequest& request) {
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string id = request.name;
+  std::erase_if(id, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-'; });
+  if (id.empty()) id = "run";
+  id.resize(std::min<std::size_t>(id.size(), 24));
+  id += "-" + std::to_string(scenario::protocol(request.scenario).seed) + "-";
+  for (Incarnation random = process::new_incarnation(), i = 0; i < 4; ++i, random >>= 4U) id += kDigits[random & 15U];
+  return id;
+}
+
+}  // namespace
+
+RunReport run_processes(const RunRequest& request, const Listener& listener) {
+  RunReport report;
+  const auto refuse = [&](int exit_code, const Error& error) {
+    process::log_error(error.text());
+    report.exit_code = exit_code;
+    report.ended = error.text();
+    return report;
+  };
+  auto folder = create_result(request);
+  if (!folder) return refuse(process::kExitIo, folder.error());
+  const std::string run = request.run_id.empty() ? run_id(request) : request.run_id;
+  auto claim = DomainClaim::lowest_free(run);
+  if (!claim) return refuse(process::kExitAborted, claim.error());
+  const bus::Address address{claim.value().domain(), run};
+  Session session(request, listener, folder.value(), std::move(claim).value(), address);
+  return session.run();
+}
+
+}  // namespace lukou::launch

@@ -1,0 +1,81 @@
+#include "services/lukou/report/summary_text.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace lukou::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json load(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return Json::parse(stream, nullptr, false);
+}
+
+std::string cell(const Json& value) {
+  if (value.is_null()) return "-";
+  char text[32];
+  if (value.is_number_float()) {
+    std::snprintf(text, sizeof text, "%.2f", value.get<double>());
+  } else {
+    std::snprintf(text, sizeof text, "%lld", value.get<long long>());
+  }
+  return text;
+}
+
+struct Row {
+  const char* key;
+  const char* label;
+};
+constexpr Row kRows[] = {{"vehicles_entered", "vehicles entered"},
+                         {"vehicles_left", "vehicles left"},
+                         {"throughput_veh_per_h", "throughput per approach [veh/h]"},
+                         {"mean_delay_s", "mean delay [s]"},
+                         {"mean_delta_s", "mean delta at the stop line [s]"},
+                         {"mean_stop_time_s", "mean stop time [s]"},
+                         {"stops_per_vehicle", "stops per vehicle"},
+                         {"mean_queue_veh", "mean queue per lane [veh]"}};
+
+}  // namespace
+
+std::string summary_text(const launch::RunReport& report) {
+  char line[160];
+  std::snprintf(line, sizeof line, "%s after %.1f s simulated in %.2f s (%.0f steps/s, %.0fx real time)\n",
+                report.ended.c_str(), static_cast<double>(report.steps) / 10.0, report.wall_s,
+                report.wall_s > 0.0 ? static_cast<double>(report.steps) / report.wall_s : 0.0,
+                report.wall_s > 0.0 ? static_cast<double>(report.steps) / 10.0 / report.wall_s : 0.0);
+  std::string text = line;
+  const Json summary = load(report.folder / "summary.json");
+  if (summary.is_object()) {
+    std::snprintf(line, sizeof line, "%-34s %10s %10s %10s\n", "", "all", "equipped", "unequipped");
+    text += line;
+    for (const Row& row : kRows) {
+      std::snprintf(line, sizeof line, "%-34s %10s %10s %10s\n", row.label, cell(summary[row.key]).c_str(),
+                    cell(summary["equipped"][row.key]).c_str(), cell(summary["unequipped"][row.key]).c_str());
+      text += line;
+    }
+    text += "advice: " + cell(summary["advice_sent"]) + " sent, " + cell(summary["advice_applied"]) + " applied, " +
+            cell(summary["advice_changed"]["total"]) + " changed by a rule, " +
+            cell(summary["advice_refused"]["total"]) + " refused\n";
+    text += "safety: " + cell(summary["collisions"]) + " collisions, " + cell(summary["reversals"]) + " reversals, " +
+            cell(summary["red_crossings"]) + " crossings on red (cars that could not stop), least head distance " +
+            cell(summary["min_head_distance_m"]) + " m\n";
+    if (summary["mean_delay_s"].is_null()) {
+      text += "(no means: no car entered after the warm-up of " + cell(summary["warmup_s"]) + " s and crossed)\n";
+    }
+  }
+  return text + "results: " + report.folder.string() + "\n";
+}
+
+std::string summary_json(const launch::RunReport& report) {
+  Json json = {{"exit_code", report.exit_code}, {"ended", report.ended}, {"folder", report.folder.string()}};
+  for (const char* name : {"timing", "summary"}) {
+    const Json content = load(report.folder / (std::string(name) + ".json"));
+    json[name] = content.is_object() ? content : Json(nullptr);
+  }
+  return json.dump() + "\n";
+}
+
+}  // namespace lukou::report

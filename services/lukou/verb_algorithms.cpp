@@ -1,0 +1,33 @@
+#include <cstdio>
+
+#include "common/process/environment.hpp"
+#include "common/scenario/scenario.hpp"
+#include "services/lukou/verbs.hpp"
+#include "services/rsu/algorithms/registry.hpp"
+
+namespace lukou {
+namespace {
+
+/// Each algorithm with its parameters, as the scenario's schema documents them.
+int algorithms() {
+  const auto docs = scenario::field_docs();
+  for (const std::string_view name : algorithm_names()) {
+    std::printf("%s\n", std::string(name).c_str());
+    const std::string prefix = "rsus[]." + std::string(name) + ".";
+    for (const scenario::FieldDoc& doc : docs) {
+      if (!doc.path.starts_with(prefix)) continue;
+      std::printf("  %-24s default %s %s, [%g, %g]; %s\n", doc.path.substr(prefix.size()).c_str(), doc.fallback.c_str(),
+                  doc.unit.c_str(), doc.min.value_or(0.0), doc.max.value_or(0.0), doc.source.c_str());
+    }
+  }
+  return process::kExitDone;
+}
+
+}  // namespace
+
+Action add_algorithms(CLI::App& app) {
+  app.add_subcommand("algorithms", "the shipped RSU algorithms with their parameters");
+  return algorithms;
+}
+
+}  // namespace lukou

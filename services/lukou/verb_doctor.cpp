@@ -1,0 +1,85 @@
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "common/bus/participant.hpp"
+#include "common/core/version.hpp"
+#include "common/process/environment.hpp"
+#include "common/scenario/scenario.hpp"
+#include "services/lukou/launch/domain_claim.hpp"
+#include "services/lukou/verbs.hpp"
+
+namespace lukou {
+namespace {
+
+bool say(bool good, const std::string& what) {
+  std::printf("%-4s %s\n", good ? "ok" : "BAD", what.c_str());
+  return good;
+}
+
+bool loopback_is_up() {
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return false;
+  bool up = false;
+  for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next)
+    up = up || ((entry->ifa_flags & IFF_LOOPBACK) != 0 && (entry->ifa_flags & IFF_UP) != 0);
+  freeifaddrs(list);
+  return up;
+}
+
+/// Two participants, one message: discovery, matching and delivery work in this domain.
+Expected<double> talk(int domain) {
+  const bus::Address address{domain, "doctor-" + std::to_string(getpid())};
+  auto speaker = bus::Participant::join(address, process::new_incarnation());
+  if (!speaker) return speaker.error();
+  auto listener = bus::Participant::join(address, process::new_incarnation());
+  if (!listener) return listener.error();
+  bus::Writer<RunState> writer(*speaker.value());
+  bus::Reader<RunState> reader(*listener.value());
+  const double begin_s = process::wall_s();
+  writer.write({.run = address.run});
+  bool heard = false;
+  while (!heard && process::wall_s() - begin_s < 5.0) {
+    listener.value()->wait(0.05);
+    reader.take([&](RunState& state, const bus::SampleInfo&) { heard = state.run == address.run; });
+  }
+  if (!heard) return Error{"DDS domain " + std::to_string(domain), "two participants do not hear each other within 5 s"};
+  return process::wall_s() - begin_s;
+}
+
+int doctor() {
+  bool good = say(true, "lukou " + std::string(version()) + ", " + bus::library_version());
+  good &= say(loopback_is_up(), "the loopback interface is up");
+  const char* uri = std::getenv("CYCLONEDDS_URI");
+  say(true, uri == nullptr ? "CYCLONEDDS_URI is not set: runs use loopback only"
+                           : std::string("CYCLONEDDS_URI is set and wins: ") + uri);
+  const auto claim = launch::DomainClaim::lowest_free("doctor");
+  const std::size_t free = launch::free_domains().size();
+  good &= say(claim.ok(), std::to_string(free + (claim ? 1 : 0)) + " of the domain ids 0 to 100 are free" +
+                              (claim ? ", the lowest is " + std::to_string(claim.value().domain()) : ""));
+  if (claim) {
+    const auto talked = talk(claim.value().domain());
+    char text[96];
+    std::snprintf(text, sizeof text, "DDS talks in domain %d (discovered and delivered in %.0f ms)",
+                  claim.value().domain(), talked ? talked.value() * 1e3 : 0.0);
+    good &= say(talked.ok(), talked ? text : talked.error().text());
+  }
+  const auto names = scenario::shipped_names();
+  std::string list;
+  for (const std::string& name : names) list += " " + name;
+  good &= say(!names.empty(), names.empty() ? "no shipped scenarios found" : "shipped scenarios:" + list);
+  say(true, std::to_string(sysconf(_SC_NPROCESSORS_ONLN)) + " processors");
+  return good ? process::kExitDone : process::kExitInternal;
+}
+
+}  // namespace
+
+Action add_doctor(CLI::App& app) {
+  app.add_subcommand("doctor", "can runs work here: loopback, DDS, domain ids, versions");
+  return doctor;
+}
+
+}  // namespace lukou

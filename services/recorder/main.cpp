@@ -1,0 +1,166 @@
+#include "common/process/options.hpp"
+#include "common/process/stepping.hpp"
+#include "common/scenario/scenario_steps.hpp"
+#include "services/recorder/recorder_node.hpp"
+
+using namespace lukou;
+
+namespace {
+
+constexpr Step kCreditEvery = 50;       ///< steps
+constexpr double kViewEvery_s = 0.05;   ///< wall time between two pictures
+constexpr double kIdleView_s = 0.5;     ///< the same picture again, for observers that come later
+constexpr double kFlushEvery_s = 1.0;   ///< wall time that a kill may cost
+
+/// How the manifest says that a run ended.
+std::string ended_by(const process::Member& member) {
+  using Kind = process::MemberEnd::Kind;
+  const process::MemberEnd& end = member.end();
+  switch (end.kind) {
+    case Kind::kEnded: return member.stopped().empty() ? "done" : member.stopped();
+    case Kind::kAborted:
+      return (end.text.starts_with("has not finished") ? "stalled:" : "lost:") + end.culprit;
+    case Kind::kClockLost: return "lost:clock";
+    case Kind::kTerminated:
+    case Kind::kFenced: break;
+  }
+  return "lost:lukou";
+}
+
+/// The recorder's part in a run.
+class Recorder {
+ public:
+  Recorder(process::Member& member, RecorderNode node, Step promise)
+      : member_(member), node_(std::move(node)), signal_(signal_timing(promise)), views_(member.participant()) {}
+
+  void hear(TrafficBatch& batch, std::uint32_t epoch) { check(traffic_.accept(epoch, batch)); }
+  void hear(SignalBatch& batch, std::uint32_t epoch) { check(signal_.accept(epoch, batch)); }
+
+  [[nodiscard]] std::string waiting_for(Step k) {
+    show(kIdleView_s);
+    if (closed_) return "clock";
+    if (!traffic_.ready(k)) return std::string(kEngineRole);
+    return signal_.ready(k) ? std::string() : std::string(kControllerRole);
+  }
+
+  void execute(Step k) {
+    node_.add(member_.due(k));
+    const SignalBatch* signal = signal_.take(k);
+    if (auto done = node_.step(*traffic_.take(k), signal); !done) return fail(done.error());
+    show(kViewEvery_s);
+    if (const double now_s = process::wall_s(); now_s - flushed_s_ > kFlushEvery_s) {
+      flushed_s_ = now_s;
+      if (auto done = node_.flush(); !done) return fail(done.error());
+    }
+    const bool last = member_.last_step() && k == *member_.last_step();
+    if (node_.anomaly() || last) return close(node_.anomaly() ? "anomaly:" + *node_.anomaly() : "");
+    if ((k + 1) % kCreditEvery == 0) member_.send({.kind = Up::Kind::kCredit, .step = k});
+  }
+
+  /// The grant of the last step may say so after the step was committed.
+  void close_if_last(Step next) {
+    if (!closed_ && member_.last_step() && next > *member_.last_step()) close("");
+  }
+
+  /// Returns the exit code.
+  int finish() {
+    if (io_failed_) return process::kExitIo;
+    if (!closed_) {
+      const auto done = node_.close(ended_by(member_), member_.end().text);
+      if (!done) process::log_error(done.error().text());
+      if (!done) return process::kExitIo;
+    }
+    if (node_.anomaly()) return process::kExitAnomaly;
+    return process::report_end(member_.end());
+  }
+
+ private:
+  void close(const std::string& anomaly) {
+    const std::string by = !anomaly.empty() ? anomaly : member_.stopped().empty() ? "done" : member_.stopped();
+    const std::string text = node_.anomaly() ? *node_.anomaly() + " at step " + std::to_string(node_.complete_to()) : "";
+    if (auto done = node_.close(by, text); !done) return fail(done.error());
+    closed_ = true;
+    show(0.0);
+    member_.send({.kind = Up::Kind::kClosed, .step = node_.complete_to(), .text = text});
+  }
+
+  void show(double every_s) {
+    const double now_s = process::wall_s();
+    if (now_s - shown_s_ < every_s || node_.complete_to() < 0) return;
+    shown_s_ = now_s;
+    node_.fill(view_);
+    views_.write(view_);
+  }
+
+  /// The disk: what is written stays, the manifest says how far, as far as it can still be written.
+  void fail(const Error& error) {
+    process::log_error(error.text());
+    io_failed_ = true;
+    static_cast<void>(node_.close("disk", error.text()));
+    member_.finish({process::MemberEnd::Kind::kAborted, std::string(kRecorderRole), error.text()});
+  }
+
+  void check(const Expected<Done>& done) {
+    if (!done) process::give_up(member_, std::string(kRecorderRole), done.error());
+  }
+
+  process::Member& member_;
+  RecorderNode node_;
+  Edge<TrafficBatch> traffic_{kSameStep};
+  Edge<SignalBatch> signal_;
+  bus::Writer<View> views_;
+  View view_;
+  double shown_s_ = 0.0;
+  double flushed_s_ = process::wall_s();
+  bool closed_ = false;
+  bool io_failed_ = false;
+};
+
+int run(int argc, char** argv) {
+  const auto options = process::member_options(argc, argv, "The record of a run.",
+                                               {process::kNoWatchdog, {"--out", "result folder, made by the launcher"}});
+  if (!options) return std::stoi(options.error().what);
+  process::catch_terminate_signal();
+  const std::string role(kRecorderRole);
+  auto created = process::Member::create(
+      {.role = role, .address = options.value().address, .watchdog = !options.value().has("--no-watchdog")});
+  if (!created) return process::report_start(created.error(), process::kExitAborted);
+  process::Member& member = *created.value();
+  bus::Reader<TrafficBatch> traffic_in(member.participant());
+  bus::Reader<SignalBatch> signal_in(member.participant());
+  member.faces(Topic::kTraffic, traffic_in, false);
+  member.faces(Topic::kSignal, signal_in, false);
+
+  const auto welcome = member.join();
+  if (!welcome) return process::report_start(welcome.error(), process::kExitUsage);
+  auto scenario = scenario::load_text(welcome.value(), "welcome", "/");
+  if (!scenario) return process::report_start(scenario.error(), process::kExitUsage);
+  auto node = RecorderNode::create(scenario.value(), options.value().value("--out"));
+  if (!node) return process::report_start(node.error(), process::kExitIo);
+
+  Recorder recorder(member, std::move(node).value(), scenario::signal_promise(scenario.value()));
+  Step next = 0;
+  process::run_steps(
+      member,
+      [&] {
+        traffic_in.take([&](TrafficBatch& batch, const bus::SampleInfo& info) {
+          if (info.alive) recorder.hear(batch, info.epoch);
+        });
+        signal_in.take([&](SignalBatch& batch, const bus::SampleInfo& info) {
+          if (info.alive) recorder.hear(batch, info.epoch);
+        });
+        recorder.close_if_last(next);
+      },
+      [&](Step k) { return recorder.waiting_for(k); },
+      [&](Step k) {
+        recorder.execute(k);
+        next = k + 1;
+      });
+  return recorder.finish();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return process::guarded("recorder", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,26 @@
+#include "services/recorder/measure_config.hpp"
+
+#include "common/scenario/scenario_steps.hpp"
+#include "scenario.pb.h"
+
+namespace lukou {
+
+RecorderConfig recorder_config(const scenario::Resolved& scenario) {
+  const scenario::Scenario& s = scenario.message();
+  const scenario::Protocol protocol = scenario::protocol(scenario);
+  RecorderConfig config;
+  config.measures = {.warmup_s = s.run().warmup_s(),
+                     .road = {.approach_m = s.traffic().approach_length_m(), .exit_m = s.traffic().exit_length_m()},
+                     .speed_limit_mps = s.vehicles().speed_limit_kmh() / 3.6,
+                     .acceleration_max_mps2 = s.vehicles().acceleration_max_mps2(),
+                     .speed_relaxation_s = s.driving().speed_relaxation_s(),
+                     .stop_speed_mps = s.driving().stop_speed_kmh() / 3.6,
+                     .stop_rearm_mps = s.driving().stop_rearm_kmh() / 3.6,
+                     .vehicle_length_m = s.vehicles().length_m()};
+  config.stop_on_overflow = s.run().on_overflow() == scenario::Overflow::STOP;
+  config.seed = protocol.seed;
+  config.end = protocol.end;
+  return config;
+}
+
+}  // namespace lukou

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "common/measures/run_measures.hpp"
+#include "common/scenario/scenario.hpp"
+
+namespace lukou {
+
+/// What the recorder takes from a scenario.
+struct RecorderConfig {
+  MeasureParameters measures;
+  bool stop_on_overflow = true;
+  std::uint64_t seed = 0;
+  Step end = 0;
+};
+RecorderConfig recorder_config(const scenario::Resolved& scenario);
+
+}  // namespace lukou

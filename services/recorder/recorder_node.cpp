@@ -1,0 +1,159 @@
+#include "services/recorder/recorder_node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/core/hash.hpp"
+#include "common/core/version.hpp"
+#include "common/results/manifest.hpp"
+#include "common/results/result_folder.hpp"
+#include "services/recorder/summary.hpp"
+
+namespace lukou {
+namespace {
+
+constexpr std::size_t kFlushBytes = 256U << 10U;
+
+results::CarRow row_of(const FinishedCar& car) {
+  return {.vehicle = car.vehicle,
+          .lane = car.lane,
+          .equipped = car.equipped,
+          .entered_s = car.entered_s,
+          .init_velocity_mps = car.initial_speed_mps,
+          .theoretical_time_s = car.theoretical_time_s,
+          .act_time_s = car.act_time_s,
+          .delta_s = car.delta_s,
+          .delay_s = car.delay_s,
+          .stops = car.stops,
+          .stop_time_steps = car.standing_steps,
+          .left_s = car.left_s};
+}
+
+}  // namespace
+
+Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, std::filesystem::path folder) {
+  auto tables = results::RunTables::create(folder);
+  if (!tables) return tables.error();
+  return RecorderNode(scenario, std::move(folder), std::move(tables).value());
+}
+
+RecorderNode::RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables)
+    : config_(recorder_config(scenario)),
+      scenario_hash_(scenario::hash(scenario)),
+      folder_(std::move(folder)),
+      tables_(std::move(tables)),
+      measures_(config_.measures) {}
+
+void RecorderNode::add(const std::vector<Directive>& directives) {
+  log_.sets.insert(log_.sets.end(), directives.begin(), directives.end());
+}
+
+Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_signal) {
+  if (new_signal != nullptr && !promise_.extend(new_signal->first, new_signal->heads)) {
+    return Error{"topic lukou/signal", "the batch of step " + std::to_string(new_signal->step) + " leaves a gap"};
+  }
+  promise_.forget_before(traffic.step);
+  step_ = traffic.step;
+  measures_.add(traffic);
+  note_hearing(traffic);
+  for (const FinishedCar& car : measures_.finished()) tables_.add_car(row_of(car));
+  if (step_ > 0) add_rows();
+  look_for_anomaly(traffic);
+  std::swap(picture_, traffic);
+  if (tables_.buffered_bytes() < kFlushBytes) return Done{};
+  return tables_.flush();
+}
+
+void RecorderNode::add_rows() {
+  results::StopRow stop;
+  results::RoadRow road;
+  results::StopTimeRow stop_time;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const LaneTotals& totals = measures_.lanes()[lane];
+    stop.system_total += stop.stops[lane] = totals.stops;
+    stop.standing_now += totals.standing_now;
+    road.left_lanes_total += road.crossed[lane] = totals.crossed;
+    stop_time.system_total_steps += stop_time.stood_steps[lane] = static_cast<std::int64_t>(totals.standing_steps);
+  }
+  // 0 / 0 is not a number: not known yet.
+  const auto entered = static_cast<double>(measures_.entered());
+  stop.mean_per_vehicle = static_cast<double>(stop.system_total) / entered;
+  road.mean_per_lane = static_cast<double>(road.left_lanes_total) / kLanes;
+  road.left_system_total = measures_.left();
+  stop_time.mean_per_vehicle_s = static_cast<double>(stop_time.system_total_steps) / 10.0 / entered;
+  tables_.add_step(step_, stop, road, stop_time);
+}
+
+void RecorderNode::note_hearing(const TrafficBatch& traffic) {
+  // An undisturbed run hears epoch 1 from step 1 on and needs no entry.
+  if (heard_epoch_.empty()) heard_epoch_.assign(traffic.heard_epoch.size(), 1);
+  if (step_ == 0) return;
+  for (std::uint32_t rsu = 0; rsu < traffic.heard_epoch.size(); ++rsu) {
+    if (traffic.heard_epoch[rsu] == heard_epoch_[rsu]) continue;
+    heard_epoch_[rsu] = traffic.heard_epoch[rsu];
+    log_.hearings.push_back({rsu, step_, heard_epoch_[rsu]});
+  }
+}
+
+void RecorderNode::look_for_anomaly(const TrafficBatch& traffic) {
+  if (anomaly_) return;
+  if (measures_.collisions() > 0) {
+    anomaly_ = "collision";
+  } else if (traffic.overflow != 0 && config_.stop_on_overflow) {
+    anomaly_ = "overflow";
+  }
+}
+
+void RecorderNode::fill(View& view) const {
+  view.step = step_;
+  const auto sum = [](const std::vector<std::uint32_t>& column) {
+    std::uint32_t total = 0;
+    for (const std::uint32_t value : column) total += value;
+    return total;
+  };
+  view.arrived = sum(picture_.arrived);
+  view.waiting = sum(picture_.waiting);
+  view.in_system = static_cast<std::uint32_t>(picture_.vehicle.size());
+  view.left = static_cast<std::uint32_t>(measures_.left());
+  view.standing = 0;
+  std::uint64_t stood = 0;
+  for (const LaneTotals& lane : measures_.lanes()) {
+    view.standing += lane.standing_now;
+    stood += lane.standing_steps;
+  }
+  const std::uint64_t entered = measures_.entered();
+  view.mean_stop_time_s = entered == 0 ? 0.0 : static_cast<double>(stood) / 10.0 / static_cast<double>(entered);
+  view.vehicle = picture_.vehicle;
+  view.lane = picture_.lane;
+  view.equipped = picture_.equipped;
+  view.position_m = picture_.position_m;
+  view.speed_mps = picture_.speed_mps;
+  view.heads.clear();
+  if (!promise_.covers(step_)) return;
+  for (const Aspect aspect : promise_.at(step_)) view.heads.push_back(static_cast<std::uint8_t>(aspect));
+}
+
+Expected<Done> RecorderNode::close(const std::string& ended_by, const std::string& culprit) {
+  const Step complete_to = std::max<Step>(step_, 0);
+  if (complete_to < config_.end && (ended_by == "stopped" || ended_by == "interrupted")) log_.stop = complete_to;
+  if (auto done = tables_.sync(); !done) return done;
+  const std::string summary = summary_json(measures_.figures(), complete_to, config_.measures.warmup_s);
+  const std::string directives = scenario::text(log_);
+  if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
+  if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;
+  results::Manifest manifest{.lukou_version = std::string(version()),
+                             .scenario_hash = scenario_hash_,
+                             .seed = config_.seed,
+                             .steps_planned = config_.end,
+                             .complete_to_step = complete_to,
+                             .ended_by = ended_by,
+                             .culprit = culprit,
+                             .files = tables_.entries()};
+  manifest.files.push_back({"directives.textproto", sha256_hex(directives), std::nullopt});
+  manifest.files.push_back({"scenario.textproto", scenario_hash_, std::nullopt});
+  manifest.files.push_back({"summary.json", sha256_hex(summary), std::nullopt});
+  std::ranges::sort(manifest.files, {}, &results::FileEntry::name);
+  return results::write_file(folder_ / results::kManifest, results::text(manifest));
+}
+
+}  // namespace lukou

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus/batches.hpp"
+#include "common/core/expected.hpp"
+#include "common/intersection/signal_promise.hpp"
+#include "common/lockstep/messages.hpp"
+#include "common/results/tables.hpp"
+#include "common/scenario/directive_log.hpp"
+#include "services/recorder/measure_config.hpp"
+
+namespace lukou {
+
+/// The record of a run: commits the truth step by step, keeps the tables, and closes with summary and manifest.
+class RecorderNode {
+ public:
+  /// `folder` exists and holds scenario.textproto.
+  static Expected<RecorderNode> create(const scenario::Resolved& scenario, std::filesystem::path folder);
+
+  /// Commits the next step; the batch's storage is swapped for a used one. `new_signal` is the controller's newest batch
+  /// if one came. Errors: the disk, or a gap in the promise.
+  Expected<Done> step(TrafficBatch& traffic, const SignalBatch* new_signal);
+  /// Directives that took effect with the step that comes next.
+  void add(const std::vector<Directive>& directives);
+  /// Set with the step that showed it: the run ends there.
+  [[nodiscard]] const std::optional<std::string>& anomaly() const { return anomaly_; }
+
+  /// Writes rows that are still in memory.
+  Expected<Done> flush() { return tables_.flush(); }
+  [[nodiscard]] Step complete_to() const { return step_; }
+  /// What observers see.
+  void fill(View& view) const;
+
+  /// Writes everything down and the manifest last. `ended_by` as results::Manifest says; `culprit`: for people.
+  Expected<Done> close(const std::string& ended_by, const std::string& culprit);
+
+ private:
+  RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables);
+  void add_rows();
+  void note_hearing(const TrafficBatch& traffic);
+  void look_for_anomaly(const TrafficBatch& traffic);
+
+  RecorderConfig config_;
+  std::string scenario_hash_;
+  std::filesystem::path folder_;
+  results::RunTables tables_;
+  RunMeasures measures_;
+  SignalPromise promise_;
+  scenario::DirectiveLog log_;
+  std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last
+  TrafficBatch picture_;                    ///< the newest step
+  std::optional<std::string> anomaly_;
+  Step step_ = -1;
+};
+
+}  // namespace lukou

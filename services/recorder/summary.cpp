@@ -1,0 +1,68 @@
+#include "services/recorder/summary.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "common/results/json.hpp"
+
+namespace lukou {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json group_json(const GroupFigures& group) {
+  return {{"cars_measured", group.cars},
+          {"vehicles_arrived", group.vehicles_arrived},
+          {"vehicles_entered", group.vehicles_entered},
+          {"vehicles_left", group.vehicles_left},
+          {"vehicles_waiting", group.vehicles_waiting},
+          {"throughput_veh_per_h", number(group.throughput_veh_per_h)},
+          {"throughput_intersection_veh_per_h", number(group.throughput_intersection_veh_per_h)},
+          {"mean_delta_s", number(group.mean_delta_s)},
+          {"mean_delay_s", number(group.mean_delay_s)},
+          {"mean_stop_time_s", number(group.mean_stop_time_s)},
+          {"stops_per_vehicle", number(group.stops_per_vehicle)},
+          {"mean_queue_veh", number(group.mean_queue_veh)}};
+}
+
+constexpr std::pair<AdviceFate, const char*> kRefused[] = {
+    {AdviceFate::kPastStopLine, "past_stop_line"},     {AdviceFate::kExpired, "expired"},
+    {AdviceFate::kSuperseded, "superseded"},           {AdviceFate::kUnknownVehicle, "unknown_vehicle"},
+    {AdviceFate::kMalformed, "malformed"},             {AdviceFate::kOutOfLimit, "limit"}};
+constexpr std::pair<AdviceFate, const char*> kChanged[] = {{AdviceFate::kChangedLimit, "limit"},
+                                                           {AdviceFate::kChangedGuard, "guard"},
+                                                           {AdviceFate::kChangedFollowing, "following"},
+                                                           {AdviceFate::kChangedRed, "red"}};
+
+template <std::size_t N>
+Json fates_json(const RunFigures& figures, const std::pair<AdviceFate, const char*> (&fates)[N]) {
+  Json json;
+  std::uint64_t total = 0;
+  for (const auto& [fate, name] : fates) total += figures.advice(fate);
+  json["total"] = total;
+  for (const auto& [fate, name] : fates) json[name] = figures.advice(fate);
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s) {
+  Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
+  json.update(group_json(figures.all));
+  json["equipped"] = group_json(figures.equipped);
+  json["unequipped"] = group_json(figures.unequipped);
+  json["advice_sent"] = figures.advice_sent;
+  json["advice_applied"] = figures.advice(AdviceFate::kApplied);
+  json["advice_refused"] = fates_json(figures, kRefused);
+  json["advice_changed"] = fates_json(figures, kChanged);
+  json["guard_interventions"] = figures.guard_interventions;
+  json["collisions"] = figures.collisions;
+  json["reversals"] = figures.reversals;
+  json["red_crossings"] = figures.red_crossings;
+  json["min_head_distance_m"] = number(figures.min_head_distance_m);
+  return results::json_text(json);
+}
+
+}  // namespace lukou

@@ -1,0 +1,129 @@
+#include "services/rsu/algorithms/arrive_on_green.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/core/contract.hpp"
+
+namespace lukou {
+namespace {
+
+// Source of all: the guidance study, algorithm "punctual".
+constexpr double kSlowest_mps = 0.3;         // a standing car counts as moving at this speed
+constexpr double kCommittedHeadway_s = 1.5;  // a car that cannot stop crosses this much after the one before
+constexpr double kGoDistance_m = 150.0;      // a car this near that makes its green need not brake for red
+constexpr double kGoHorizon_s = 20.0;        // ... if the green begins within this time
+constexpr int kBisections = 11;
+
+}  // namespace
+
+ArriveOnGreen::ArriveOnGreen(const ArriveOnGreenParameters& parameters) : parameters_(parameters) {
+  LUKOU_EXPECT(parameters.acceleration_max_mps2 > 0.0 && parameters.gain_time_s > 0.0);
+  // Rounded down to a hundredth, the unit of the message, so that no car has to refuse it.
+  go_mps2_ = static_cast<double>(static_cast<int>(parameters.acceleration_max_mps2 * 100.0 + 1e-9)) / 100.0;
+}
+
+void ArriveOnGreen::on_step(const RsuView& heard, RsuAnswer& answer) {
+  advised_now_.clear();
+  for (const LaneView& lane : heard.lanes) guide_lane(heard, lane, answer);
+  std::ranges::sort(advised_now_);
+  std::swap(advised_, advised_now_);
+}
+
+void ArriveOnGreen::guide_lane(const RsuView& heard, const LaneView& lane, RsuAnswer& answer) {
+  const ArriveOnGreenParameters& p = parameters_;
+  const double target_mps = p.target_speed_share * heard.map.speed_limit_mps;
+  const double now_s = heard.time_s;
+  double before_s = lane.last_crossing_s.value_or(-std::numeric_limits<double>::infinity());
+  for (const HeardCar& car : lane.cars) {
+    const double earliest_s = now_s + approach_time_s(p.rates, {.distance_m = car.distance_m,
+                                                                .speed_mps = std::max(car.speed_mps, kSlowest_mps),
+                                                                .cruise_mps = std::max(car.speed_mps, target_mps),
+                                                                .final_mps = target_mps});
+    const double braking_m = car.speed_mps * car.speed_mps / (2 * p.acceleration_max_mps2);
+    if (lane.aspect != Aspect::kGreen && braking_m > car.distance_m) {  // committed: it crosses anyway
+      before_s = std::max(earliest_s, before_s + kCommittedHeadway_s);
+      release(car, answer);
+      continue;
+    }
+    double crossing_s = std::max(earliest_s, before_s + p.headway_s);
+    const std::optional<Green> green = green_for(lane, crossing_s);
+    if (!green) {  // no green is known that late
+      before_s = crossing_s;
+      release(car, answer);
+      continue;
+    }
+    crossing_s = std::max(crossing_s, green->begin_s + p.first_crossing_s);
+    before_s = crossing_s;
+    const bool is_to_come = green->begin_s > now_s;
+
+    bool go = lane.aspect != Aspect::kGreen && car.distance_m < kGoDistance_m && green->begin_s <= now_s + kGoHorizon_s;
+    if (crossing_s > earliest_s + p.slack_s) {
+      const double into_green_s = std::max(0.0, crossing_s - green->begin_s - p.first_crossing_s);
+      const double final_mps = std::min(target_mps, p.first_speed_mps + p.speed_ramp_mps2 * into_green_s);
+      if (const auto acceleration_mps2 = acceleration_for(car, final_mps, crossing_s - now_s)) {
+        advise(car, *acceleration_mps2, answer);
+        continue;
+      }
+      go = go || is_to_come;
+    }
+    if (go) {
+      advise(car, go_mps2_, answer);
+    } else {
+      release(car, answer);
+    }
+  }
+}
+
+std::optional<ArriveOnGreen::Green> ArriveOnGreen::green_for(const LaneView& lane, double crossing_s) const {
+  Aspect aspect = lane.aspect;
+  Step since = lane.aspect_since;
+  for (const SignalChange& change : lane.changes) {
+    const double end_s = time_s(change.step);
+    if (aspect == Aspect::kGreen && crossing_s <= end_s + parameters_.tail_s) return Green{time_s(since), end_s};
+    aspect = change.aspect;
+    since = change.step;
+  }
+  if (aspect == Aspect::kGreen) return Green{time_s(since), std::numeric_limits<double>::infinity()};
+  return std::nullopt;
+}
+
+std::optional<double> ArriveOnGreen::acceleration_for(const HeardCar& car, double final_mps,
+                                                      double time_to_line_s) const {
+  const auto time_at_s = [&](double cruise_mps) {
+    return approach_time_s(
+        parameters_.rates,
+        {.distance_m = car.distance_m, .speed_mps = car.speed_mps, .cruise_mps = cruise_mps, .final_mps = final_mps});
+  };
+  double slow_mps = parameters_.speed_min_mps;
+  double fast_mps = std::max({final_mps, car.speed_mps, slow_mps});
+  if (time_at_s(fast_mps) >= time_to_line_s) return std::nullopt;
+  double cruise_mps = slow_mps;
+  if (time_at_s(slow_mps) > time_to_line_s) {
+    for (int i = 0; i < kBisections; ++i) {
+      cruise_mps = 0.5 * (slow_mps + fast_mps);
+      if (time_at_s(cruise_mps) > time_to_line_s) {
+        slow_mps = cruise_mps;
+      } else {
+        fast_mps = cruise_mps;
+      }
+    }
+    cruise_mps = 0.5 * (slow_mps + fast_mps);
+  }
+  const double most_mps2 = std::min(parameters_.rates.speeding_up_mps2, go_mps2_);
+  const double least_mps2 = -std::min(parameters_.rates.slowing_down_mps2, go_mps2_);
+  return std::clamp((cruise_mps - car.speed_mps) / parameters_.gain_time_s, least_mps2, most_mps2);
+}
+
+void ArriveOnGreen::advise(const HeardCar& car, double acceleration_mps2, RsuAnswer& answer) {
+  answer.advise(car.id, {.acceleration_mps2 = acceleration_mps2,
+                         .lifetime = std::max<Step>(1, step_at_or_after(parameters_.lifetime_s)),
+                         .binding = Binding::kFollowing});
+  advised_now_.push_back(car.id);
+}
+
+void ArriveOnGreen::release(const HeardCar& car, RsuAnswer& answer) const {
+  if (std::ranges::binary_search(advised_, car.id)) answer.release(car.id);
+}
+
+}  // namespace lukou

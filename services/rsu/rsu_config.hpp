@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/core/expected.hpp"
+#include "common/intersection/geometry.hpp"
+#include "common/messages/plane.hpp"
+#include "common/radio/modem.hpp"
+#include "services/rsu/algorithms/registry.hpp"
+
+namespace lukou {
+
+namespace scenario {
+class Scenario;
+}
+
+/// All that one RSU needs to know before a run.
+struct RsuConfig {
+  std::uint32_t rsu = 0;         ///< index in the scenario's list
+  std::uint64_t station_id = 0;  ///< sender of its frames
+  PlanePoint antenna;            ///< at the centre of the junction; assumed
+  RadioModel radio = RadioModel::kIdeal;
+  RoadLengths road;
+  double speed_limit_mps = 0.0;
+  std::string algorithm;
+  AlgorithmParameters parameters;
+};
+
+/// The configuration of the scenario's RSU number `rsu`. The scenario is resolved: every field is present and valid.
+/// Fails if there is no such RSU, or the radio is one that this program does not know.
+Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t rsu);
+
+}  // namespace lukou

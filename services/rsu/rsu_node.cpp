@@ -1,0 +1,182 @@
+#include "services/rsu/rsu_node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/core/contract.hpp"
+#include "common/messages/bsm.hpp"
+#include "common/messages/time_marks.hpp"
+
+namespace lukou {
+namespace {
+
+constexpr std::uint16_t kNode = 1;          // id of the intersection; assumed, from the range for tests
+constexpr std::size_t kStatesPerPhase = 3;  // what shows now and the two aspects after it
+constexpr Step kMapEvery = kStepsPerSecond;
+constexpr Step kLongestLifetime = 65'534 / 10;  // steps that the field of 10 ms units holds
+
+MapData map_of(const RsuConfig& config) {
+  MapData map;
+  map.node = kNode;
+  map.lane_width_m = kLaneWidth_m;
+  map.speed_limit_mps = config.speed_limit_mps;
+  for (std::size_t i = 0; i < map.lanes.size(); ++i) {
+    const Pose entrance = pose_on_path(config.road, static_cast<Lane>(i), 0.0);
+    const Pose line = pose_on_path(config.road, static_cast<Lane>(i), config.road.approach_m);
+    map.lanes[i] = {{entrance.x_m, entrance.y_m}, {line.x_m, line.y_m}};
+  }
+  return map;
+}
+
+/// What a message says of its car, if it says enough to place it on the map.
+std::optional<CarReport> report_of(const BasicSafety& message, Step now) {
+  if (!message.speed_mps || !message.heading_rad) return std::nullopt;
+  return CarReport{.id = static_cast<TemporaryId>(message.temporary_id),
+                   .made = step_of_second_mark(now, message.second_mark_ms),
+                   .place = {.centre_x_m = message.centre.x_m,
+                             .centre_y_m = message.centre.y_m,
+                             .heading_rad = *message.heading_rad,
+                             .length_m = message.length_m},
+                   .speed_mps = *message.speed_mps,
+                   .acceleration_mps2 = message.acceleration_mps2.value_or(0.0)};
+}
+
+}  // namespace
+
+RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
+    : config_(std::move(config)),
+      algorithm_(std::move(algorithm)),
+      modem_(config_.radio, config_.antenna),
+      cars_(config_.road),
+      map_(map_of(config_)) {
+  LUKOU_EXPECT(algorithm_ != nullptr);
+  view_.map = {.speed_limit_mps = config_.speed_limit_mps, .approach_length_m = config_.road.approach_m};
+  spat_.node = kNode;
+  guidance_.rsu = config_.station_id;
+}
+
+void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, RoadsideBatch& out) {
+  LUKOU_EXPECT(air.step == k);
+  out.rsu = config_.rsu;
+  out.step = k;
+  out.frames.clear();
+  out.frames_heard = 0;
+  out.frames_malformed = 0;
+  out.answers_malformed = 0;
+  if (new_signal != nullptr) {
+    const auto taken = signals_.take({.first = new_signal->first,
+                                      .heads = new_signal->heads,
+                                      .change_lane = new_signal->change_lane,
+                                      .change_aspect = new_signal->change_aspect,
+                                      .change_step = new_signal->change_step});
+    LUKOU_EXPECT(taken.ok());
+  }
+  signals_.advance(k);
+  hear(k, air, out);
+  think(k);
+  say_spat(k, out.frames);
+  if (k % kMapEvery == 0) say_map(k, out.frames);
+  say_guidance(k, out);
+}
+
+void RsuNode::hear(Step k, const AirBatch& air, RoadsideBatch& out) {
+  for (std::size_t frame = 0; frame < air.frames.size(); ++frame) {
+    const std::optional<Step> heard_at = modem_.heard_at(air.frames, frame, air.step);
+    if (!heard_at) continue;
+    LUKOU_EXPECT(*heard_at == k);  // no radio model of today delays a frame
+    ++out.frames_heard;
+    if (air.frames.kind[frame] != static_cast<std::uint8_t>(FrameKind::kBsm)) continue;
+    const Expected<BasicSafety> message = decode_bsm(air.frames.payload_of(frame));
+    if (!message) {
+      ++out.frames_malformed;
+    } else if (const auto report = report_of(message.value(), k)) {
+      cars_.hear(*report);
+    }
+  }
+  cars_.arrange(k);
+}
+
+void RsuNode::think(Step k) {
+  view_.step = k;
+  view_.time_s = time_s(k);
+  for (std::size_t i = 0; i < view_.lanes.size(); ++i) {
+    const auto lane = static_cast<Lane>(i);
+    view_.lanes[i] = {.cars = cars_.cars(lane),
+                      .last_crossing_s = cars_.last_crossing_s(lane),
+                      .aspect = signals_.aspect(lane),
+                      .aspect_since = signals_.since(lane),
+                      .changes = signals_.changes(lane)};
+  }
+  answer_.clear();
+  algorithm_->on_step(view_, answer_);
+}
+
+void RsuNode::say_spat(Step k, Frames& frames) {
+  spat_.count = next_count(FrameKind::kSpat);
+  spat_.minute_of_year = minute_of_year(k);
+  spat_.second_mark_ms = second_mark_ms(k);
+  for (std::size_t i = 0; i < spat_.lanes.size(); ++i) {
+    const auto lane = static_cast<Lane>(i);
+    std::vector<PhaseState>& states = spat_.lanes[i];
+    states.clear();
+    states.push_back({.aspect = signals_.aspect(lane), .starts_in = 0, .ends_in = std::nullopt});
+    for (const SignalChange& change : signals_.changes(lane)) {
+      states.back().ends_in = change.step - k;
+      if (states.size() == kStatesPerPhase) break;
+      states.push_back({.aspect = change.aspect, .starts_in = change.step - k, .ends_in = std::nullopt});
+    }
+  }
+  append(frames, next_envelope(), spat_);
+}
+
+void RsuNode::say_map(Step k, Frames& frames) {
+  map_.count = next_count(FrameKind::kMap);
+  map_.minute_of_year = minute_of_year(k);
+  append(frames, next_envelope(), map_);
+}
+
+void RsuNode::say_guidance(Step k, RoadsideBatch& out) {
+  guidance_.second_mark_ms = second_mark_ms(k);
+  guidance_.vehicles.clear();
+  for (const RsuAnswer::Item& item : answer_.items()) {
+    VehicleCoordination vehicle{.vehicle = static_cast<std::uint64_t>(item.car), .path = {}, .binding = {}};
+    if (item.advice) {
+      // A car that is not on the map stands at the centre of the junction: its advice is for the car to refuse.
+      const ReportedPlace place = cars_.place(item.car).value_or(ReportedPlace{});
+      const Step lifetime = std::clamp<Step>(item.advice->lifetime, 0, kLongestLifetime + 1);
+      vehicle.path = GuidedPath{.centre = {place.centre_x_m, place.centre_y_m},
+                                .acceleration_mps2 = item.advice->acceleration_mps2,
+                                .lifetime_ms = static_cast<std::uint32_t>(lifetime * kStep_ms)};
+      vehicle.binding = item.advice->binding;
+      if (!fits(*vehicle.path)) {
+        ++out.answers_malformed;
+        continue;
+      }
+    }
+    guidance_.vehicles.push_back(vehicle);
+    if (guidance_.vehicles.size() == kMaxCoordinations) send_guidance(out.frames);
+  }
+  if (!guidance_.vehicles.empty()) send_guidance(out.frames);
+}
+
+void RsuNode::send_guidance(Frames& frames) {
+  guidance_.count = next_count(FrameKind::kRsc);
+  append(frames, next_envelope(), guidance_);
+  guidance_.vehicles.clear();
+}
+
+Envelope RsuNode::next_envelope() {
+  return {.sender = config_.station_id,
+          .sequence = next_sequence_++,
+          .antenna_x_m = config_.antenna.x_m,
+          .antenna_y_m = config_.antenna.y_m};
+}
+
+std::uint8_t RsuNode::next_count(FrameKind kind) {
+  std::uint8_t& next = next_count_[static_cast<std::size_t>(kind)];
+  const std::uint8_t count = next;
+  next = static_cast<std::uint8_t>((next + 1) % 128);
+  return count;
+}
+
+}  // namespace lukou

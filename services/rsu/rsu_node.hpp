@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "common/bus/batches.hpp"
+#include "common/messages/map.hpp"
+#include "common/messages/rsc.hpp"
+#include "common/messages/spat.hpp"
+#include "common/radio/modem.hpp"
+#include "services/rsu/model/heard_cars.hpp"
+#include "services/rsu/model/signal_view.hpp"
+#include "services/rsu/rsu_config.hpp"
+#include "services/rsu/sdk/rsu_algorithm.hpp"
+
+namespace lukou {
+
+/// One RSU: hears the air of a step, lets its algorithm think, and says SPAT (each step), MAP (each second) and
+/// guidance.
+class RsuNode {
+ public:
+  /// Requires an algorithm.
+  RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm);
+
+  /// The step function. `new_signal` is the controller's batch if there is a new one, otherwise null: then what it
+  /// promised before stands. `out` is overwritten, all but its epoch.
+  /// Requires steps one after the other, air of the same step, and a well-formed promise that covers it: the lockstep
+  /// has checked them.
+  void step(Step k, const SignalBatch* new_signal, const AirBatch& air, RoadsideBatch& out);
+
+ private:
+  void hear(Step k, const AirBatch& air, RoadsideBatch& out);
+  void think(Step k);
+  void say_spat(Step k, Frames& frames);
+  void say_map(Step k, Frames& frames);
+  void say_guidance(Step k, RoadsideBatch& out);
+  void send_guidance(Frames& frames);
+  [[nodiscard]] Envelope next_envelope();
+  [[nodiscard]] std::uint8_t next_count(FrameKind kind);
+
+  RsuConfig config_;
+  std::unique_ptr<RsuAlgorithm> algorithm_;
+  Modem modem_;
+  HeardCars cars_;
+  SignalView signals_;
+  RsuView view_;
+  RsuAnswer answer_;
+  MapData map_;
+  Spat spat_;
+  Coordination guidance_;
+  std::uint32_t next_sequence_ = 0;
+  std::array<std::uint8_t, 6> next_count_{};  ///< by FrameKind
+};
+
+}  // namespace lukou

@@ -1,0 +1,119 @@
+#include "services/traffic_engine/model/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/core/contract.hpp"
+#include "common/core/keyed_random.hpp"
+
+namespace lukou::traffic {
+
+Engine::Engine(const EngineParameters& parameters)
+    : parameters_(parameters), law_(parameters_.vehicles, parameters_.driving) {
+  LUKOU_EXPECT(parameters_.driving.guard_spacing_m <= parameters_.driving.standstill_spacing_m);
+  lanes_.reserve(kLanes);
+  for (int i = 0; i < kLanes; ++i) lanes_.emplace_back(parameters_);
+  for (const Approach approach : kAllApproaches) {
+    entrances_.push_back({.demand = Demand(parameters_.seed, approach, parameters_.demand[index(approach)]),
+                          .waiting_since_s = {},
+                          .next_vehicle = static_cast<std::uint32_t>(approach)});
+  }
+}
+
+void Engine::step(Step step, const Heads& heads, std::span<const Advice> advice) {
+  LUKOU_EXPECT(step == next_step_);
+  ++next_step_;
+  events_.clear();
+  entries_.clear();
+  if (step == 0) return;
+  for (const Advice& heard : advice) hear(heard, step);
+  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) lanes_[lane].advance(step, heads[lane], events_);
+  forget_departed();
+  overflows_ = false;
+  for (const Approach approach : kAllApproaches) admit(approach, time_s(step));
+}
+
+void Engine::hear(const Advice& advice, Step step) {
+  LUKOU_EXPECT(advice.issued < step);
+  const auto refuse = [&](std::uint32_t vehicle, AdviceOutcome reason) {
+    if (!advice.release) events_.outcomes.push_back({vehicle, advice.rsu, advice.sequence, reason, false});
+  };
+  const Station* found = station(advice.target);
+  if (found == nullptr) return refuse(kNoVehicle, AdviceOutcome::kUnknownVehicle);
+  Car* car = lanes_[index(found->lane)].find(found->vehicle);
+  LUKOU_EXPECT(car != nullptr);
+  if (!advice.release) {
+    if (!std::isfinite(advice.acceleration_mps2)) return refuse(car->vehicle, AdviceOutcome::kMalformed);
+    if (std::abs(advice.acceleration_mps2) > parameters_.vehicles.acceleration_max_mps2) {
+      return refuse(car->vehicle, AdviceOutcome::kOutOfLimit);
+    }
+  }
+  if (car->stage == Stage::kExit) return refuse(car->vehicle, AdviceOutcome::kPastStopLine);
+  car->unit.take(advice, step, car->vehicle, events_.outcomes);
+}
+
+void Engine::admit(Approach approach, double now_s) {
+  Entrance& entrance = entrances_[index(approach)];
+  while (const auto arrival_s = entrance.demand.next_until(now_s)) entrance.waiting_since_s.push_back(*arrival_s);
+  while (!entrance.waiting_since_s.empty() && admit_first(approach)) {
+  }
+  const auto& waiting = entrance.waiting_since_s;
+  if (!waiting.empty() && now_s - waiting.front() > parameters_.overflow_wait_s) overflows_ = true;
+}
+
+bool Engine::admit_first(Approach approach) {
+  Entrance& entrance = entrances_[index(approach)];
+  std::array<std::optional<Motion>, kLanesPerApproach> last;
+  std::array<bool, kLanesPerApproach> safe{};
+  for (int i = 0; i < kLanesPerApproach; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    last[place] = lanes_[index(lane_of(approach, static_cast<Turn>(i)))].last();
+    safe[place] = lane_is_safe(law_, last[place]);
+  }
+  const std::uint32_t vehicle = entrance.next_vehicle;
+  const double uniform =
+      uniform01({.run_seed = parameters_.seed, .purpose = Purpose::kLane, .entity = vehicle, .index = 0});
+  const auto chosen = chosen_lane(safe, parameters_.demand[index(approach)].lane_weights, uniform);
+  if (!chosen) return false;
+
+  const Driver driver = drawn_driver(parameters_, vehicle);
+  const Lane lane = lane_of(approach, static_cast<Turn>(*chosen));
+  Car car;
+  car.motion.speed_mps =
+      capped_initial_speed_mps(parameters_, law_, driver.initial_speed_mps, last[static_cast<std::size_t>(*chosen)]);
+  car.desired_speed_mps = driver.desired_speed_mps;
+  car.commanded_mps2 = std::numeric_limits<double>::quiet_NaN();
+  car.temporary_id = driver.temporary_id;
+  car.entered = next_step_ - 1;
+  car.vehicle = vehicle;
+  car.equipped = drawn_equipped(parameters_.seed, vehicle, parameters_.equipped_ratio);
+  lanes_[index(lane)].enter(car);
+  entries_.push_back({vehicle, lane, car.equipped, car.motion.speed_mps, car.desired_speed_mps});
+  if (car.equipped) {
+    const auto at = std::ranges::lower_bound(stations_, car.temporary_id, {}, &Station::temporary_id);
+    stations_.insert(at, {car.temporary_id, vehicle, lane});
+  }
+  entrance.waiting_since_s.pop_front();
+  entrance.next_vehicle += static_cast<std::uint32_t>(kApproaches);
+  return true;
+}
+
+void Engine::forget_departed() {
+  for (const Departure& departure : events_.departures) {
+    std::erase_if(stations_, [&](const Station& known) { return known.vehicle == departure.vehicle; });
+  }
+}
+
+const Engine::Station* Engine::station(std::uint64_t temporary_id) const {
+  const auto found = std::ranges::lower_bound(stations_, temporary_id, {}, &Station::temporary_id);
+  return found != stations_.end() && found->temporary_id == temporary_id ? &*found : nullptr;
+}
+
+void Engine::change_flow(Approach approach, double flow_veh_per_h) {
+  entrances_[index(approach)].demand.change_flow(time_s(std::max<Step>(next_step_ - 1, 0)), flow_veh_per_h);
+}
+
+void Engine::change_equipped_ratio(double ratio) { parameters_.equipped_ratio = ratio; }
+
+}  // namespace lukou::traffic

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "services/traffic_engine/model/demand.hpp"
+#include "services/traffic_engine/model/entrance.hpp"
+#include "services/traffic_engine/model/lane_traffic.hpp"
+
+namespace lukou::traffic {
+
+struct Entry {
+  std::uint32_t vehicle = 0;
+  Lane lane{};
+  bool equipped = false;
+  double speed_mps = 0.0;
+  double desired_speed_mps = 0.0;
+};
+
+/// Approach of a vehicle; its number is 4 * n + approach, n = place among the approach's arrivals.
+constexpr Approach approach_of_vehicle(std::uint32_t vehicle) {
+  return static_cast<Approach>(vehicle % static_cast<std::uint32_t>(kApproaches));
+}
+
+/// The traffic of the whole intersection: twelve lanes and the cars that wait outside.
+class Engine {
+ public:
+  /// Requires parameters in their ranges (idl/scenario.proto).
+  explicit Engine(const EngineParameters& parameters);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Moves every car from t_(step-1) to t_step under the heads valid at t_(step-1) and the advice heard, then admits
+  /// the cars that arrived by t_step. Step 0 leaves the empty road. Requires the steps 0, 1, 2, ... in order; `heads`
+  /// is not read in step 0.
+  void step(Step step, const Heads& heads, std::span<const Advice> advice);
+
+  /// From the next step on. Other draws stay as they are.
+  void change_flow(Approach approach, double flow_veh_per_h);
+  void change_equipped_ratio(double ratio);
+
+  [[nodiscard]] const LaneTraffic& lane(Lane lane) const { return lanes_[index(lane)]; }
+  /// What happened on the lanes in the last step.
+  [[nodiscard]] const LaneEvents& events() const { return events_; }
+  /// Cars that came onto the road at the end of the last step.
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  [[nodiscard]] std::uint32_t arrived(Approach approach) const { return entrances_[index(approach)].demand.taken(); }
+  [[nodiscard]] std::uint32_t waiting(Approach approach) const {
+    return static_cast<std::uint32_t>(entrances_[index(approach)].waiting_since_s.size());
+  }
+  /// True if some car has waited outside longer than overflow_wait_s.
+  [[nodiscard]] bool overflows() const { return overflows_; }
+  [[nodiscard]] const EngineParameters& parameters() const { return parameters_; }
+
+ private:
+  struct Entrance {
+    Demand demand;
+    std::deque<double> waiting_since_s;  ///< of the cars outside, first come first
+    std::uint32_t next_vehicle = 0;      ///< of the first of them
+  };
+  struct Station {
+    std::uint64_t temporary_id = 0;
+    std::uint32_t vehicle = 0;
+    Lane lane{};
+  };
+
+  void hear(const Advice& advice, Step step);
+  void admit(Approach approach, double now_s);
+  /// Puts the first waiting car onto a safe lane; false if there is none.
+  bool admit_first(Approach approach);
+  void forget_departed();
+  [[nodiscard]] const Station* station(std::uint64_t temporary_id) const;
+
+  EngineParameters parameters_;
+  FollowLaw law_;
+  std::vector<LaneTraffic> lanes_;
+  std::vector<Entrance> entrances_;
+  std::vector<Station> stations_;  ///< equipped cars on the road, by temporary id
+  LaneEvents events_;
+  std::vector<Entry> entries_;
+  Step next_step_ = 0;
+  bool overflows_ = false;
+};
+
+}  // namespace lukou::traffic

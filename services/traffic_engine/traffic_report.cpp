@@ -1,0 +1,85 @@
+#include "services/traffic_engine/traffic_report.hpp"
+
+namespace lukou {
+namespace {
+
+using traffic::AdviceOutcome;
+using traffic::Stage;
+
+// The model's words are those of the bus.
+static_assert(static_cast<int>(Stage::kIn) == static_cast<int>(CarState::kIn));
+static_assert(static_cast<int>(Stage::kBlock) == static_cast<int>(CarState::kBlock));
+static_assert(static_cast<int>(Stage::kCommitted) == static_cast<int>(CarState::kCommitted));
+static_assert(static_cast<int>(Stage::kExit) == static_cast<int>(CarState::kExit));
+static_assert(static_cast<int>(AdviceOutcome::kApplied) == static_cast<int>(AdviceFate::kApplied));
+static_assert(static_cast<int>(AdviceOutcome::kChangedLimit) == static_cast<int>(AdviceFate::kChangedLimit));
+static_assert(static_cast<int>(AdviceOutcome::kChangedGuard) == static_cast<int>(AdviceFate::kChangedGuard));
+static_assert(static_cast<int>(AdviceOutcome::kChangedFollowing) == static_cast<int>(AdviceFate::kChangedFollowing));
+static_assert(static_cast<int>(AdviceOutcome::kChangedRed) == static_cast<int>(AdviceFate::kChangedRed));
+static_assert(static_cast<int>(AdviceOutcome::kPastStopLine) == static_cast<int>(AdviceFate::kPastStopLine));
+static_assert(static_cast<int>(AdviceOutcome::kExpired) == static_cast<int>(AdviceFate::kExpired));
+static_assert(static_cast<int>(AdviceOutcome::kSuperseded) == static_cast<int>(AdviceFate::kSuperseded));
+static_assert(static_cast<int>(AdviceOutcome::kUnknownVehicle) == static_cast<int>(AdviceFate::kUnknownVehicle));
+static_assert(static_cast<int>(AdviceOutcome::kMalformed) == static_cast<int>(AdviceFate::kMalformed));
+static_assert(static_cast<int>(AdviceOutcome::kOutOfLimit) == static_cast<int>(AdviceFate::kOutOfLimit));
+
+void report_cars(const traffic::Engine& engine, TrafficBatch& batch) {
+  for (int i = 0; i < kLanes; ++i) {
+    for (const traffic::Car& car : engine.lane(static_cast<Lane>(i)).cars()) {
+      batch.vehicle.push_back(car.vehicle);
+      batch.lane.push_back(static_cast<std::uint8_t>(i));
+      batch.state.push_back(static_cast<std::uint8_t>(car.stage));
+      batch.equipped.push_back(car.equipped ? 1 : 0);
+      batch.position_m.push_back(car.motion.position_m);
+      batch.speed_mps.push_back(car.motion.speed_mps);
+      batch.acceleration_mps2.push_back(car.motion.acceleration_mps2);
+      batch.commanded_mps2.push_back(car.commanded_mps2);
+      batch.noise_mps2.push_back(car.noise_mps2);
+    }
+  }
+}
+
+void report_events(const traffic::Engine& engine, TrafficBatch& batch) {
+  for (const traffic::Entry& entry : engine.entries()) {
+    batch.entered_vehicle.push_back(entry.vehicle);
+    batch.entered_lane.push_back(static_cast<std::uint8_t>(entry.lane));
+    batch.entered_equipped.push_back(entry.equipped ? 1 : 0);
+    batch.entered_speed_mps.push_back(entry.speed_mps);
+    batch.entered_desired_speed_mps.push_back(entry.desired_speed_mps);
+  }
+  const traffic::LaneEvents& events = engine.events();
+  for (const traffic::Crossing& crossing : events.crossings) {
+    batch.crossed_vehicle.push_back(crossing.vehicle);
+    batch.crossed_time_s.push_back(crossing.time_s);
+    batch.crossed_aspect.push_back(static_cast<std::uint8_t>(crossing.aspect));
+    batch.crossed_committed.push_back(crossing.committed ? 1 : 0);
+  }
+  for (const traffic::Departure& departure : events.departures) {
+    batch.left_vehicle.push_back(departure.vehicle);
+    batch.left_time_s.push_back(departure.time_s);
+  }
+  for (const traffic::OutcomeEvent& outcome : events.outcomes) {
+    batch.fate_vehicle.push_back(outcome.vehicle);
+    batch.fate_rsu.push_back(outcome.rsu);
+    batch.fate_sequence.push_back(outcome.sequence);
+    batch.fate.push_back(static_cast<std::uint8_t>(outcome.outcome));
+    batch.fate_again.push_back(outcome.again ? 1 : 0);
+  }
+  batch.guard_interventions = events.guard_interventions;
+}
+
+}  // namespace
+
+void report(const traffic::Engine& engine, Step step, TrafficBatch& batch) {
+  batch.clear();
+  batch.step = step;
+  report_cars(engine, batch);
+  report_events(engine, batch);
+  for (const Approach approach : kAllApproaches) {
+    batch.arrived.push_back(engine.arrived(approach));
+    batch.waiting.push_back(engine.waiting(approach));
+  }
+  batch.overflow = engine.overflows() ? 1 : 0;
+}
+
+}  // namespace lukou

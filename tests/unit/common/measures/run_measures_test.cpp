@@ -1,0 +1,265 @@
+#include "common/measures/run_measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/measures/free_motion.hpp"
+
+namespace lukou {
+namespace {
+
+constexpr double kKmh = 1.0 / 3.6;
+constexpr std::uint8_t kWestCenter = 1;
+
+/// Writes batches by hand, car by car.
+class Script {
+ public:
+  explicit Script(double warmup_s = 0.0) : measures_(parameters(warmup_s)) {}
+
+  void enter(std::uint32_t vehicle, bool equipped = false, double speed_mps = 15.0) {
+    batch_.entered_vehicle.push_back(vehicle);
+    batch_.entered_lane.push_back(kWestCenter);
+    batch_.entered_equipped.push_back(equipped ? 1 : 0);
+    batch_.entered_speed_mps.push_back(speed_mps);
+    batch_.entered_desired_speed_mps.push_back(15.0);
+  }
+  void drive(std::uint32_t vehicle, double position_m, double speed_mps, CarState state = CarState::kIn) {
+    batch_.vehicle.push_back(vehicle);
+    batch_.lane.push_back(kWestCenter);
+    batch_.state.push_back(static_cast<std::uint8_t>(state));
+    batch_.position_m.push_back(position_m);
+    batch_.speed_mps.push_back(speed_mps);
+  }
+  void cross(std::uint32_t vehicle, double at_s, Aspect aspect = Aspect::kGreen) {
+    batch_.crossed_vehicle.push_back(vehicle);
+    batch_.crossed_time_s.push_back(at_s);
+    batch_.crossed_aspect.push_back(static_cast<std::uint8_t>(aspect));
+    batch_.crossed_committed.push_back(0);
+  }
+  void leave(std::uint32_t vehicle, double at_s) {
+    batch_.left_vehicle.push_back(vehicle);
+    batch_.left_time_s.push_back(at_s);
+  }
+  void fate(AdviceFate fate, bool again = false) {
+    batch_.fate_vehicle.push_back(0);
+    batch_.fate.push_back(static_cast<std::uint8_t>(fate));
+    batch_.fate_again.push_back(again ? 1 : 0);
+  }
+  void counts(std::uint32_t arrived, std::uint32_t waiting) {
+    batch_.arrived = {arrived, 0, 0, 0};
+    batch_.waiting = {waiting, 0, 0, 0};
+  }
+  /// Hands the step in.
+  void next() {
+    batch_.step = step_++;
+    measures_.add(batch_);
+    for (const FinishedCar& car : measures_.finished()) finished_.push_back(car);
+    batch_.clear();
+  }
+  [[nodiscard]] const RunMeasures& measures() const { return measures_; }
+  [[nodiscard]] const std::vector<FinishedCar>& finished() const { return finished_; }
+  [[nodiscard]] Step step() const { return step_; }
+
+ private:
+  static MeasureParameters parameters(double warmup_s) {
+    MeasureParameters measure;
+    measure.warmup_s = warmup_s;
+    return measure;
+  }
+  RunMeasures measures_;
+  TrafficBatch batch_;
+  std::vector<FinishedCar> finished_;
+  Step step_ = 0;
+};
+
+TEST(RunMeasures, CountsAStopOnceUntilTheCarIsFastAgain) {
+  Script script;
+  script.enter(0);
+  script.drive(0, 0.0, 15.0);
+  script.next();
+  // Below 5 km/h, above it but below 8, below again: one stop. Above 8 and below again: a second.
+  for (const double speed_kmh : {4.9, 7.9, 4.0, 0.0, 8.1, 4.0}) {
+    script.drive(0, 10.0, speed_kmh * kKmh);
+    script.next();
+  }
+  const LaneTotals& lane = script.measures().lanes()[kWestCenter];
+  EXPECT_EQ(lane.stops, 2U);
+  EXPECT_EQ(lane.standing_steps, 4U);
+  EXPECT_DOUBLE_EQ(lane.stop_time_s(), 0.4);
+  EXPECT_EQ(lane.standing_now, 1U);
+  EXPECT_EQ(script.measures().lanes()[0].stops, 0U);
+}
+
+TEST(RunMeasures, DoesNotCountStopsWhileTheCarStands) {
+  Script script;
+  script.enter(0);
+  script.drive(0, 0.0, 15.0);
+  script.next();
+  for (int i = 0; i < 50; ++i) {
+    script.drive(0, 10.0, 0.0);
+    script.next();
+  }
+  EXPECT_EQ(script.measures().lanes()[kWestCenter].stops, 1U);
+  EXPECT_DOUBLE_EQ(script.measures().lanes()[kWestCenter].stop_time_s(), 5.0);
+}
+
+TEST(RunMeasures, LeavesStandingAfterTheLineOut) {
+  Script script;
+  script.enter(0);
+  script.drive(0, 0.0, 15.0);
+  script.next();
+  script.drive(0, 501.0, 0.0, CarState::kExit);
+  script.next();
+  EXPECT_EQ(script.measures().lanes()[kWestCenter].standing_steps, 0U);
+  EXPECT_EQ(script.measures().lanes()[kWestCenter].standing_now, 0U);
+}
+
+TEST(RunMeasures, WritesTheRowOfACar) {
+  Script script;
+  for (int k = 0; k < 10; ++k) script.next();
+  script.enter(1, true, 10.0);  // at 1.0 s
+  script.drive(1, 0.0, 10.0);
+  script.next();
+  script.drive(1, 400.0, 1.0);
+  script.next();
+  script.cross(1, 61.25);
+  script.drive(1, 501.0, 1.0, CarState::kExit);
+  script.next();
+  script.leave(1, 70.5);
+  EXPECT_TRUE(script.finished().empty());
+  script.next();
+  ASSERT_EQ(script.finished().size(), 1U);
+  const FinishedCar& car = script.finished()[0];
+  EXPECT_EQ(car.vehicle, 1U);
+  EXPECT_EQ(car.lane, Lane(kWestCenter));
+  EXPECT_TRUE(car.equipped);
+  EXPECT_DOUBLE_EQ(car.entered_s, 1.0);
+  EXPECT_DOUBLE_EQ(car.initial_speed_mps, 10.0);
+  const double limit_mps = 60.0 / 3.6;
+  const double ramp_m = (limit_mps * limit_mps - 100.0) / 6.0;
+  EXPECT_NEAR(car.theoretical_time_s, (limit_mps - 10.0) / 3.0 + (500.0 - ramp_m) / limit_mps, 1e-12);
+  EXPECT_DOUBLE_EQ(car.act_time_s, 60.25);
+  EXPECT_DOUBLE_EQ(car.delta_s, 60.25 - car.theoretical_time_s);
+  // 5 m/s below the desired speed: 2 m/s at 3 m/s2, then the relaxation.
+  EXPECT_NEAR(car.delay_s, 69.5 - free_time_s({.initial_mps = 10.0, .desired_mps = 15.0}, 600.0), 1e-12);
+  EXPECT_EQ(car.stops, 1U);
+  EXPECT_DOUBLE_EQ(car.stop_time_s, 0.1);
+  EXPECT_DOUBLE_EQ(car.left_s, 70.5);
+}
+
+TEST(RunMeasures, GivesCarsInTheOrderInWhichTheyLeft) {
+  Script script;
+  script.enter(0);
+  script.enter(4);
+  script.drive(0, 10.0, 15.0);
+  script.drive(4, 0.0, 15.0);
+  script.next();
+  script.cross(0, 0.11), script.cross(4, 0.12);
+  script.next();
+  script.leave(4, 0.25), script.leave(0, 0.21);
+  script.next();
+  ASSERT_EQ(script.finished().size(), 2U);
+  EXPECT_EQ(script.finished()[0].vehicle, 0U);
+  EXPECT_EQ(script.finished()[1].vehicle, 4U);
+}
+
+TEST(RunMeasures, HasNoMeansWithoutCars) {
+  Script script(10.0);
+  script.next();
+  const RunFigures figures = script.measures().figures();
+  EXPECT_FALSE(figures.all.mean_delta_s);
+  EXPECT_FALSE(figures.all.mean_delay_s);
+  EXPECT_FALSE(figures.all.stops_per_vehicle);
+  EXPECT_FALSE(figures.all.mean_queue_veh);
+  EXPECT_FALSE(figures.throughput_veh_per_h);
+  EXPECT_FALSE(figures.min_head_distance_m);
+}
+
+TEST(RunMeasures, SpeaksOnlyOfCarsThatEnteredAfterTheWarmUp) {
+  Script script(1.0);
+  script.enter(0);
+  script.drive(0, 0.0, 0.0);
+  script.next();
+  while (script.step() < 10) script.next();
+  script.enter(4, true);  // at 1.0 s: the first that counts
+  script.drive(0, 10.0, 0.0), script.drive(4, 0.0, 0.0);
+  script.next();
+  script.cross(0, 1.1), script.cross(4, 1.1);
+  script.next();
+  script.leave(0, 1.15), script.leave(4, 1.2);
+  script.next();
+  const RunFigures figures = script.measures().figures();
+  EXPECT_EQ(figures.all.cars, 1U);
+  EXPECT_EQ(figures.equipped.cars, 1U);
+  EXPECT_EQ(figures.unequipped.cars, 0U);
+  EXPECT_FALSE(figures.unequipped.mean_delta_s);
+  EXPECT_DOUBLE_EQ(*figures.all.stops_per_vehicle, 1.0);
+  EXPECT_DOUBLE_EQ(*figures.all.mean_stop_time_s, 0.1);
+  EXPECT_NEAR(*figures.equipped.mean_delay_s, 0.2 - 40.0, 1e-9);
+  EXPECT_EQ(figures.vehicles_entered, 2U);
+  EXPECT_EQ(figures.vehicles_left, 2U);
+  // Two crossings in the 0.2 s after the warm-up.
+  EXPECT_NEAR(*figures.throughput_intersection_veh_per_h, 2.0 / 0.2 * 3600.0, 1e-6);
+  EXPECT_NEAR(*figures.throughput_veh_per_h, 2.0 / 0.2 * 900.0, 1e-6);
+}
+
+TEST(RunMeasures, AveragesTheQueueOverStepsAndLanes) {
+  Script script(0.1);
+  script.enter(0, true), script.enter(4);
+  script.next();
+  script.drive(0, 10.0, 0.0), script.drive(4, 0.0, 0.0);  // the last step of the warm-up
+  script.next();
+  script.drive(0, 10.0, 0.0), script.drive(4, 0.0, 0.0);
+  script.next();
+  script.drive(0, 10.0, 0.0), script.drive(4, 0.0, 15.0);
+  script.next();
+  const RunFigures figures = script.measures().figures();
+  EXPECT_DOUBLE_EQ(*figures.all.mean_queue_veh, 3.0 / (2 * 12));
+  EXPECT_DOUBLE_EQ(*figures.equipped.mean_queue_veh, 2.0 / (2 * 12));
+  EXPECT_DOUBLE_EQ(*figures.unequipped.mean_queue_veh, 1.0 / (2 * 12));
+}
+
+TEST(RunMeasures, CountsEachAdviceByItsLastFate) {
+  Script script;
+  script.fate(AdviceFate::kApplied), script.fate(AdviceFate::kApplied), script.fate(AdviceFate::kExpired);
+  script.next();
+  script.fate(AdviceFate::kChangedGuard, true), script.fate(AdviceFate::kChangedRed);
+  script.next();
+  const RunFigures figures = script.measures().figures();
+  EXPECT_EQ(figures.advice_sent, 4U);
+  EXPECT_EQ(figures.advice(AdviceFate::kApplied), 1U);
+  EXPECT_EQ(figures.advice(AdviceFate::kChangedGuard), 1U);
+  EXPECT_EQ(figures.advice(AdviceFate::kChangedRed), 1U);
+  EXPECT_EQ(figures.advice(AdviceFate::kExpired), 1U);
+}
+
+TEST(RunMeasures, SeesCollisionsReversalsAndCrossingsOnRed) {
+  Script script;
+  script.enter(0), script.enter(4);
+  script.drive(0, 5.0, 1.0), script.drive(4, 0.0, 1.0);
+  script.next();
+  script.drive(0, 5.0, 1.0), script.drive(4, 0.6, 1.0);  // 4.4 m apart: a collision
+  script.next();
+  script.drive(0, 5.0, 1.0), script.drive(4, 0.6, 1.0);  // the same one
+  script.next();
+  script.drive(0, 5.0, 1.0), script.drive(4, 0.1, 1.0);  // moved backwards
+  script.cross(0, 0.3, Aspect::kRed), script.cross(4, 0.3, Aspect::kYellow);
+  script.next();
+  const RunFigures figures = script.measures().figures();
+  EXPECT_EQ(figures.collisions, 1U);
+  EXPECT_EQ(figures.reversals, 1U);
+  EXPECT_EQ(figures.red_crossings, 1U);
+  EXPECT_NEAR(*figures.min_head_distance_m, 4.4, 1e-12);
+}
+
+TEST(RunMeasures, CopiesTheNewestCountsOfArrivals) {
+  Script script;
+  script.counts(3, 1);
+  script.next();
+  script.counts(5, 2);
+  script.next();
+  EXPECT_EQ(script.measures().figures().vehicles_arrived, 5U);
+  EXPECT_EQ(script.measures().figures().vehicles_waiting, 2U);
+}
+
+}  // namespace
+}  // namespace lukou

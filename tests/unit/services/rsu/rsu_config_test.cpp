@@ -1,0 +1,49 @@
+#include "services/rsu/rsu_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scenario.pb.h"
+
+namespace lukou {
+namespace {
+
+scenario::Scenario two_rsus() {
+  scenario::Scenario from;
+  from.mutable_radio()->set_preset(scenario::IDEAL);
+  from.mutable_traffic()->set_approach_length_m(400.0);
+  from.mutable_traffic()->set_exit_length_m(80.0);
+  from.mutable_vehicles()->set_speed_limit_kmh(72.0);
+  from.mutable_vehicles()->set_acceleration_max_mps2(2.5);
+  from.add_rsus()->set_algorithm("none");
+  scenario::Rsu& second = *from.add_rsus();
+  second.set_algorithm("arrive_on_green");
+  second.mutable_arrive_on_green()->set_headway_s(1.5);
+  second.mutable_arrive_on_green()->set_final_braking_mps2(1.1);
+  second.mutable_arrive_on_green()->set_lifetime_s(2.0);
+  return from;
+}
+
+TEST(RsuConfig, SaysWhatTheScenarioSays) {
+  const auto config = rsu_config(two_rsus(), 1);
+  ASSERT_TRUE(config) << config.error().text();
+  EXPECT_EQ(config.value().rsu, 1U);
+  EXPECT_EQ(config.value().algorithm, "arrive_on_green");
+  EXPECT_EQ(config.value().road.approach_m, 400.0);
+  EXPECT_EQ(config.value().road.exit_m, 80.0);
+  EXPECT_DOUBLE_EQ(config.value().speed_limit_mps, 20.0);
+  const ArriveOnGreenParameters& parameters = config.value().parameters.arrive_on_green;
+  EXPECT_EQ(parameters.acceleration_max_mps2, 2.5);
+  EXPECT_EQ(parameters.headway_s, 1.5);
+  EXPECT_EQ(parameters.rates.final_braking_mps2, 1.1);
+  EXPECT_EQ(parameters.lifetime_s, 2.0);
+  EXPECT_NE(config.value().station_id, rsu_config(two_rsus(), 0).value().station_id);
+}
+
+TEST(RsuConfig, RefusesAnRsuThatIsNotThere) {
+  const auto config = rsu_config(two_rsus(), 2);
+  ASSERT_FALSE(config);
+  EXPECT_EQ(config.error().where, "rsus");
+}
+
+}  // namespace
+}  // namespace lukou

@@ -1,0 +1,258 @@
+#include "services/rsu/rsu_node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "common/core/math.hpp"
+#include "common/messages/bsm.hpp"
+#include "common/messages/time_marks.hpp"
+
+namespace lukou {
+namespace {
+
+constexpr Step kPromised = 11;
+
+/// An algorithm that does what the test says.
+class Scripted final : public RsuAlgorithm {
+ public:
+  using Script = std::function<void(const RsuView&, RsuAnswer&)>;
+  explicit Scripted(Script script) : script_(std::move(script)) {}
+  void on_step(const RsuView& heard, RsuAnswer& answer) override { script_(heard, answer); }
+
+ private:
+  Script script_;
+};
+
+RsuConfig config() {
+  RsuConfig config;
+  config.station_id = 900;
+  config.road = {.approach_m = 500.0, .exit_m = 100.0};
+  config.speed_limit_mps = 60.0 / 3.6;
+  return config;
+}
+
+RsuNode node_with(Scripted::Script script) { return {config(), std::make_unique<Scripted>(std::move(script))}; }
+RsuNode idle_node() {
+  return node_with([](const RsuView&, RsuAnswer&) {});
+}
+
+/// The controller's batch for the steps first ... first + 10 of the paper's plan, with changes for three cycles.
+SignalBatch signals(Step first) {
+  const SignalPlan plan = paper_plan();
+  SignalBatch batch;
+  batch.first = first;
+  for (Step step = first; step < first + kPromised; ++step) {
+    for (std::uint8_t lane = 0; lane < kLanes; ++lane) {
+      batch.heads.push_back(static_cast<std::uint8_t>(aspect_at(plan, static_cast<Lane>(lane), step)));
+    }
+  }
+  for (std::uint8_t lane = 0; lane < kLanes; ++lane) {
+    for (Step step = next_change(plan, static_cast<Lane>(lane), first); step < first + 3 * plan.cycle;
+         step = next_change(plan, static_cast<Lane>(lane), step)) {
+      batch.change_lane.push_back(lane);
+      batch.change_aspect.push_back(static_cast<std::uint8_t>(aspect_at(plan, static_cast<Lane>(lane), step)));
+      batch.change_step.push_back(step);
+    }
+  }
+  return batch;
+}
+
+/// A BSM of a car on WC, `distance_m` before the line.
+void add_car(AirBatch& air, std::uint64_t id, double distance_m, double speed_mps) {
+  BasicSafety message;
+  message.temporary_id = id;
+  message.second_mark_ms = second_mark_ms(air.step);
+  message.centre = centre_of_car({-15.5 - distance_m, -5.25}, math::kPi / 2, 4.5);
+  message.speed_mps = speed_mps;
+  message.heading_rad = math::kPi / 2;
+  message.acceleration_mps2 = 0.5;
+  message.length_m = 4.5;
+  append(air.frames, {.sender = id, .sequence = 0, .antenna_x_m = message.centre.x_m, .antenna_y_m = -5.25}, message);
+}
+
+std::vector<std::size_t> frames_of(const RoadsideBatch& out, FrameKind kind) {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < out.frames.size(); ++i) {
+    if (out.frames.kind[i] == static_cast<std::uint8_t>(kind)) frames.push_back(i);
+  }
+  return frames;
+}
+
+TEST(RsuNode, ShowsItsAlgorithmWhatItHeard) {
+  int calls = 0;
+  RsuNode node = node_with([&](const RsuView& heard, RsuAnswer&) {
+    ++calls;
+    EXPECT_EQ(heard.step, 0);
+    EXPECT_NEAR(heard.map.speed_limit_mps, 16.6667, 1e-3);
+    const LaneView& lane = heard.lanes[1];
+    ASSERT_EQ(lane.cars.size(), 2U);
+    EXPECT_EQ(lane.cars[0].id, TemporaryId{5});
+    EXPECT_NEAR(lane.cars[0].distance_m, 100.0, 0.0056);
+    EXPECT_NEAR(lane.cars[0].speed_mps, 12.0, 0.01);
+    EXPECT_NEAR(lane.cars[0].acceleration_mps2, 0.5, 0.005);
+    EXPECT_EQ(lane.cars[0].age, 0);
+    EXPECT_EQ(lane.cars[1].id, TemporaryId{4});
+    EXPECT_EQ(lane.aspect, Aspect::kGreen);
+    ASSERT_GE(lane.changes.size(), 5U);
+    EXPECT_EQ(lane.changes[0], (SignalChange{Aspect::kRed, 450}));
+    EXPECT_EQ(lane.changes[1], (SignalChange{Aspect::kGreen, 900}));
+    EXPECT_EQ(heard.lanes[3].aspect, Aspect::kRed);
+  });
+  const SignalBatch signal = signals(0);
+  AirBatch air;
+  add_car(air, 4, 200.0, 12.0);
+  add_car(air, 5, 100.0, 12.0);
+  RoadsideBatch out;
+  node.step(0, &signal, air, out);
+  EXPECT_EQ(calls, 1);
+  EXPECT_EQ(out.frames_heard, 2U);
+  EXPECT_EQ(out.frames_malformed, 0U);
+}
+
+TEST(RsuNode, SaysSpatInEachStepAndMapInEachSecond) {
+  RsuNode node = idle_node();
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  std::uint32_t sequence = 0;
+  for (Step k = 0; k < kPromised; ++k) {
+    node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
+    EXPECT_EQ(out.step, k);
+    EXPECT_EQ(frames_of(out, FrameKind::kSpat).size(), 1U);
+    EXPECT_EQ(frames_of(out, FrameKind::kMap).size(), k % 10 == 0 ? 1U : 0U);
+    EXPECT_TRUE(frames_of(out, FrameKind::kRsc).empty());
+    for (std::size_t i = 0; i < out.frames.size(); ++i) {
+      EXPECT_EQ(out.frames.sender[i], 900U);
+      EXPECT_EQ(out.frames.sequence[i], sequence++);
+    }
+  }
+}
+
+TEST(RsuNode, SaysInItsSpatWhenTheHeadsWillChange) {
+  RsuNode node = idle_node();
+  const SignalBatch signal = signals(440);
+  RoadsideBatch out;
+  node.step(445, &signal, {.step = 445, .frames = {}}, out);
+  const auto spat = decode_spat(out.frames.payload_of(frames_of(out, FrameKind::kSpat).at(0)));
+  ASSERT_TRUE(spat) << spat.error().text();
+  EXPECT_EQ(spat.value().second_mark_ms, 44'500);
+  const auto& states = spat.value().lanes[0];
+  ASSERT_EQ(states.size(), 3U);
+  EXPECT_EQ(states[0].aspect, Aspect::kGreen);
+  EXPECT_EQ(states[0].ends_in, 5);
+  EXPECT_EQ(states[1].aspect, Aspect::kRed);
+  EXPECT_EQ(states[1].starts_in, 5);
+  EXPECT_EQ(states[1].ends_in, 455);
+  EXPECT_EQ(states[2].ends_in, 905);
+}
+
+TEST(RsuNode, TellsInItsMapWhereEachLaneRuns) {
+  RsuNode node = idle_node();
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  const auto map = decode_map(out.frames.payload_of(frames_of(out, FrameKind::kMap).at(0)));
+  ASSERT_TRUE(map) << map.error().text();
+  // NR: cars come from the north on the west side of their road, 8.75 m from the axis.
+  EXPECT_NEAR(map.value().lanes[11].entrance.y_m, 515.5, 0.0056);
+  EXPECT_NEAR(map.value().lanes[11].stop_line.y_m, 15.5, 0.0056);
+  EXPECT_NEAR(map.value().lanes[11].stop_line.x_m, -8.75, 0.0056);
+}
+
+TEST(RsuNode, SendsAtMostSixteenAdvicesAFrame) {
+  RsuNode node = node_with([](const RsuView&, RsuAnswer& answer) {
+    for (std::uint64_t id = 0; id < 35; ++id) {
+      answer.advise(static_cast<TemporaryId>(id), {.acceleration_mps2 = -1.0, .lifetime = 5});
+    }
+    answer.release(TemporaryId{99});
+  });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  const auto frames = frames_of(out, FrameKind::kRsc);
+  ASSERT_EQ(frames.size(), 3U);
+  std::uint64_t next = 0;
+  for (const std::size_t frame : frames) {
+    const auto message = decode_rsc(out.frames.payload_of(frame));
+    ASSERT_TRUE(message);
+    EXPECT_EQ(message.value().rsu, 900U);
+    for (const VehicleCoordination& car : message.value().vehicles) {
+      if (next == 35) {
+        EXPECT_EQ(car.vehicle, 99U);
+        EXPECT_FALSE(car.path);
+        continue;
+      }
+      EXPECT_EQ(car.vehicle, next++);
+      ASSERT_TRUE(car.path);
+      EXPECT_EQ(car.path->acceleration_mps2, -1.0);
+      EXPECT_EQ(car.path->lifetime_ms, 500U);
+      EXPECT_EQ(car.binding, Binding::kGuard);
+    }
+  }
+  EXPECT_EQ(next, 35U);
+}
+
+TEST(RsuNode, RefusesAdviceThatNoMessageCanCarry) {
+  RsuNode node = node_with([](const RsuView&, RsuAnswer& answer) {
+    const TemporaryId car{1};
+    answer.advise(car, {.acceleration_mps2 = std::numeric_limits<double>::quiet_NaN(), .lifetime = 5});
+    answer.advise(car, {.acceleration_mps2 = -std::numeric_limits<double>::infinity(), .lifetime = 5});
+    answer.advise(car, {.acceleration_mps2 = 20.02, .lifetime = 5});
+    answer.advise(car, {.acceleration_mps2 = 1.0, .lifetime = 0});
+    answer.advise(car, {.acceleration_mps2 = 1.0, .lifetime = 6554});
+    answer.advise(car, {.acceleration_mps2 = 1.0, .lifetime = 6553});
+  });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  EXPECT_EQ(out.answers_malformed, 5U);
+  const auto frames = frames_of(out, FrameKind::kRsc);
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(decode_rsc(out.frames.payload_of(frames[0])).value().vehicles.size(), 1U);
+}
+
+TEST(RsuNode, DropsAndCountsWhatItCannotDecode) {
+  std::size_t cars = 0;
+  RsuNode node = node_with([&](const RsuView& heard, RsuAnswer&) { cars = heard.lanes[1].cars.size(); });
+  const SignalBatch signal = signals(0);
+  AirBatch air;
+  add_car(air, 4, 200.0, 12.0);
+  add_car(air, 5, 100.0, 12.0);
+  air.frames.payload[0] = 0xff;  // the first frame's first byte
+  RoadsideBatch out;
+  node.step(0, &signal, air, out);
+  EXPECT_EQ(out.frames_heard, 2U);
+  EXPECT_EQ(out.frames_malformed, 1U);
+  EXPECT_EQ(cars, 1U);
+}
+
+TEST(RsuNodeDeathTest, EndsTheProgramWithoutAPromiseForItsStep) {
+  RsuNode node = idle_node();
+  RoadsideBatch out;
+  EXPECT_DEATH(node.step(0, nullptr, {}, out), "covers");
+}
+
+TEST(RsuNode, AnswersTheSameInputsWithTheSameBytes) {
+  const auto run = [] {
+    auto algorithm = make_algorithm("arrive_on_green", {});
+    RsuNode node(config(), std::move(algorithm.value()));
+    std::vector<std::uint8_t> bytes;
+    RoadsideBatch out;
+    for (Step k = 455; k < 500; ++k) {  // red for W and E until step 900
+      const SignalBatch signal = signals(k == 455 ? k : k + kPromised - 1);
+      AirBatch air;
+      air.step = k;
+      add_car(air, 4, 400.0 - 1.5 * static_cast<double>(k - 455), 15.0);
+      add_car(air, 9, 430.0 - 1.5 * static_cast<double>(k - 455), 15.0);
+      node.step(k, &signal, air, out);
+      EXPECT_EQ(frames_of(out, FrameKind::kRsc).size(), 1U);
+      bytes.insert(bytes.end(), out.frames.payload.begin(), out.frames.payload.end());
+    }
+    return bytes;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace lukou

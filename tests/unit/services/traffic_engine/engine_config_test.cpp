@@ -1,0 +1,95 @@
+#include "services/traffic_engine/engine_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/scenario/scenario.hpp"
+
+namespace lukou {
+namespace {
+
+Expected<EngineConfig> config_of(const std::string& text) {
+  const auto scenario = scenario::load_text(text, "test", std::filesystem::temp_directory_path());
+  if (!scenario) return scenario.error();
+  return engine_config(scenario.value());
+}
+
+TEST(EngineConfig, OfAnEmptyScenarioIsTheDefaultOfTheModel) {
+  const auto config = config_of("");
+  ASSERT_TRUE(config) << config.error().text();
+  const traffic::EngineParameters& from = config.value().traffic;
+  const traffic::EngineParameters model;
+  EXPECT_EQ(from.seed, model.seed);
+  EXPECT_EQ(from.equipped_ratio, model.equipped_ratio);
+  EXPECT_EQ(from.overflow_wait_s, model.overflow_wait_s);
+  EXPECT_EQ(from.road.approach_m, model.road.approach_m);
+  EXPECT_EQ(from.road.exit_m, model.road.exit_m);
+  EXPECT_EQ(from.vehicles.length_m, model.vehicles.length_m);
+  EXPECT_EQ(from.vehicles.width_m, model.vehicles.width_m);
+  EXPECT_EQ(from.vehicles.speed_limit_mps, model.vehicles.speed_limit_mps);
+  EXPECT_EQ(from.vehicles.acceleration_max_mps2, model.vehicles.acceleration_max_mps2);
+  EXPECT_EQ(from.vehicles.actuation_noise_mps2, model.vehicles.actuation_noise_mps2);
+  EXPECT_EQ(from.driving.desired_speed_mean, model.driving.desired_speed_mean);
+  EXPECT_EQ(from.driving.desired_speed_deviation, model.driving.desired_speed_deviation);
+  EXPECT_EQ(from.driving.desired_speed_min, model.driving.desired_speed_min);
+  EXPECT_EQ(from.driving.desired_speed_max, model.driving.desired_speed_max);
+  EXPECT_EQ(from.driving.initial_speed_min, model.driving.initial_speed_min);
+  EXPECT_EQ(from.driving.safe_time_s, model.driving.safe_time_s);
+  EXPECT_EQ(from.driving.standstill_spacing_m, model.driving.standstill_spacing_m);
+  EXPECT_EQ(from.driving.guard_spacing_m, model.driving.guard_spacing_m);
+  EXPECT_EQ(from.driving.reaction_distance_m, model.driving.reaction_distance_m);
+  EXPECT_EQ(from.driving.comfortable_braking_mps2, model.driving.comfortable_braking_mps2);
+  EXPECT_EQ(from.driving.perception_threshold_radps, model.driving.perception_threshold_radps);
+  EXPECT_EQ(from.driving.perception_floor_mps, model.driving.perception_floor_mps);
+  EXPECT_EQ(from.driving.band_near, model.driving.band_near);
+  EXPECT_EQ(from.driving.band_far, model.driving.band_far);
+  EXPECT_EQ(from.driving.singularity_m, model.driving.singularity_m);
+  EXPECT_EQ(from.driving.speed_relaxation_s, model.driving.speed_relaxation_s);
+  EXPECT_EQ(from.driving.gap_closing_mps2, model.driving.gap_closing_mps2);
+  EXPECT_EQ(from.driving.discharge_speed_mps, model.driving.discharge_speed_mps);
+  EXPECT_EQ(from.driving.reaction_time_s, model.driving.reaction_time_s);
+  for (std::size_t i = 0; i < kApproaches; ++i) {
+    EXPECT_FALSE(from.demand[i].listed);
+    ASSERT_EQ(from.demand[i].flows.size(), 1U);
+    EXPECT_EQ(from.demand[i].flows[0].flow_veh_per_h, model.demand[i].flows[0].flow_veh_per_h);
+    EXPECT_EQ(from.demand[i].lane_weights, model.demand[i].lane_weights);
+  }
+}
+
+TEST(EngineConfig, TakesDemandByApproach) {
+  const auto config = config_of(R"(traffic {
+    west { flow_veh_per_h: 300 shares { left: 2 center: 0 right: 1 } }
+    north { flow_series { from_s: 0 flow_veh_per_h: 100 } flow_series { from_s: 60 flow_veh_per_h: 200 } }
+  })");
+  ASSERT_TRUE(config) << config.error().text();
+  const auto& demand = config.value().traffic.demand;
+  EXPECT_EQ(demand[index(Approach::kWest)].flows[0].flow_veh_per_h, 300.0);
+  EXPECT_EQ(demand[index(Approach::kWest)].lane_weights, (std::array<double, 3>{2.0, 0.0, 1.0}));
+  ASSERT_EQ(demand[index(Approach::kNorth)].flows.size(), 2U);
+  EXPECT_EQ(demand[index(Approach::kNorth)].flows[1].from_s, 60.0);
+  EXPECT_EQ(demand[index(Approach::kSouth)].flows[0].flow_veh_per_h, 1800.0);
+}
+
+TEST(EngineConfig, ReadsATraceOfArrivals) {
+  const auto file = std::filesystem::temp_directory_path() / "lukou_engine_config_test.csv";
+  std::ofstream(file) << "time_s,approach\n1.5,west\n2.25,south\n4,west\n";
+  const auto config = config_of("traffic { west { arrivals_csv: \"" + file.filename().string() + "\" } }");
+  std::filesystem::remove(file);
+  ASSERT_TRUE(config) << config.error().text();
+  EXPECT_TRUE(config.value().traffic.demand[index(Approach::kWest)].listed);
+  EXPECT_EQ(config.value().traffic.demand[index(Approach::kWest)].arrivals_s, (std::vector<double>{1.5, 4.0}));
+}
+
+TEST(EngineConfig, RefusesAGuardThatIsWiderThanTheStandstill) {
+  EXPECT_FALSE(config_of("driving { standstill_spacing_m: 5.5 guard_spacing_m: 5.6 }"));
+  EXPECT_TRUE(config_of("driving { standstill_spacing_m: 5.6 guard_spacing_m: 5.6 }"));
+}
+
+TEST(EngineConfig, RefusesInitialSpeedsThatNobodyDraws) {
+  EXPECT_FALSE(config_of("driving { initial_speed_min: 0.95 }"));
+}
+
+}  // namespace
+}  // namespace lukou
