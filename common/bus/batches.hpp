@@ -26,16 +26,16 @@ struct RoadsideBatch {
   Frames frames;
   std::uint32_t frames_heard = 0;      ///< reception report: frames of this step's air that the RSU's modem let through
   std::uint32_t frames_malformed = 0;  ///< heard, but not decodable: dropped
-  std::uint32_t answers_malformed = 0; ///< the algorithm's advice that no message can carry: refused, not sent
+  std::uint32_t answers_malformed = 0;  ///< the algorithm's advice that no message can carry: refused, not sent
 };
 
 /// Controller to engine and RSUs. The batch of controller step k promises the heads through step k + P.
 struct SignalBatch {
   Step step = 0;
-  Step first = 0;                          ///< first step that `heads` speaks of
-  std::vector<std::uint8_t> heads;         ///< Aspect, (steps x 12) row-major, lanes in the order WL ... NR
-  std::vector<std::uint8_t> change_lane;   ///< forecast: changes of the heads from `first` on under the running plan,
-  std::vector<std::uint8_t> change_aspect; ///<   by lane, then by time; at least three cycles ahead
+  Step first = 0;                           ///< first step that `heads` speaks of
+  std::vector<std::uint8_t> heads;          ///< Aspect, (steps x 12) row-major, lanes in the order WL ... NR
+  std::vector<std::uint8_t> change_lane;    ///< forecast: changes of the heads from `first` on under the running plan,
+  std::vector<std::uint8_t> change_aspect;  ///<   by lane, then by time; at least three cycles ahead
   std::vector<Step> change_step;
 };
 
@@ -44,17 +44,17 @@ enum class CarState : std::uint8_t { kIn = 0, kBlock = 1, kCommitted = 2, kExit 
 
 /// What became of an advice: see docs/topics.md. The values stand on the bus.
 enum class AdviceFate : std::uint8_t {
-  kApplied = 0,          ///< the wanted acceleration was the commanded one
-  kChangedLimit = 1,     ///< used, but cut to the limit of acceleration or speed
-  kChangedGuard = 2,     ///< used, but the collision or stop-line guard braked harder
-  kChangedFollowing = 3, ///< FOLLOWING: the following law asked for less
-  kChangedRed = 4,       ///< FOLLOWING: braking for a light that is not green asked for less
-  kPastStopLine = 5,     ///< refused: the car has crossed its stop line
-  kExpired = 6,          ///< refused: its lifetime had ended before a step could use it
-  kSuperseded = 7,       ///< refused: a newer advice for the car came before a step could use it
-  kUnknownVehicle = 8,   ///< refused: nobody on the road has this temporary id
-  kMalformed = 9,        ///< refused: undecodable, not a number, or out of the standard's range
-  kOutOfLimit = 10,      ///< refused: beyond the limits of acceleration of every car, +-a_max
+  kApplied = 0,           ///< the wanted acceleration was the commanded one
+  kChangedLimit = 1,      ///< used, but cut to the limit of acceleration or speed
+  kChangedGuard = 2,      ///< used, but the collision or stop-line guard braked harder
+  kChangedFollowing = 3,  ///< FOLLOWING: the following law asked for less
+  kChangedRed = 4,        ///< FOLLOWING: braking for a light that is not green asked for less
+  kPastStopLine = 5,      ///< refused: the car has crossed its stop line
+  kExpired = 6,           ///< refused: its lifetime had ended before a step could use it
+  kSuperseded = 7,        ///< refused: a newer advice for the car came before a step could use it
+  kUnknownVehicle = 8,    ///< refused: nobody on the road has this temporary id
+  kMalformed = 9,         ///< refused: undecodable, not a number, or out of the standard's range
+  kOutOfLimit = 10,       ///< refused: beyond the limits of acceleration of every car, +-a_max
 };
 inline constexpr std::size_t kAdviceFates = 11;
 
@@ -73,8 +73,8 @@ struct TrafficBatch {
   std::vector<double> commanded_mps2;     ///< the advice in force in that step, NaN if none
   std::vector<double> noise_mps2;         ///< actuation noise of that step
 
-  std::vector<std::uint32_t> arrived;  ///< per approach (4): arrivals since step 0
-  std::vector<std::uint32_t> waiting;  ///< per approach (4): arrived, not yet on the road
+  std::vector<std::uint32_t> arrived;           ///< per approach (4): arrivals since step 0
+  std::vector<std::uint32_t> waiting;           ///< per approach (4): arrived, not yet on the road
   std::vector<std::uint32_t> arrived_equipped;  ///< of these, with an on-board unit
   std::vector<std::uint32_t> waiting_equipped;
 
@@ -87,9 +87,9 @@ struct TrafficBatch {
 
   // Cars whose front crossed the stop line.
   std::vector<std::uint32_t> crossed_vehicle;
-  std::vector<double> crossed_time_s;          ///< interpolated
-  std::vector<std::uint8_t> crossed_aspect;    ///< what the head showed
-  std::vector<std::uint8_t> crossed_committed; ///< 1 = could not have stopped when the green ended
+  std::vector<double> crossed_time_s;           ///< interpolated
+  std::vector<std::uint8_t> crossed_aspect;     ///< what the head showed
+  std::vector<std::uint8_t> crossed_committed;  ///< 1 = could not have stopped when the green ended
 
   // Cars whose front left the end of the exit.
   std::vector<std::uint32_t> left_vehicle;
@@ -97,15 +97,15 @@ struct TrafficBatch {
 
   // Fates of advice, as they became known. An advice may first be applied and be changed in a later step of its life:
   // then a second row says so with `fate_again` = 1.
-  std::vector<std::uint32_t> fate_vehicle;   ///< 4294967295 = unknown
+  std::vector<std::uint32_t> fate_vehicle;  ///< 4294967295 = unknown
   std::vector<std::uint32_t> fate_rsu;
   std::vector<std::uint32_t> fate_sequence;  ///< of the frame
   std::vector<std::uint8_t> fate;            ///< AdviceFate
   std::vector<std::uint8_t> fate_again;
 
-  std::uint32_t guard_interventions = 0;  ///< cars that the guard braked in this step
-  std::uint8_t overflow = 0;              ///< 1 = some car has waited outside longer than the scenario allows
-  std::vector<std::uint32_t> heard_epoch; ///< per RSU: the epoch heard in this step, 0 = silent
+  std::uint32_t guard_interventions = 0;   ///< cars that the guard braked in this step
+  std::uint8_t overflow = 0;               ///< 1 = some car has waited outside longer than the scenario allows
+  std::vector<std::uint32_t> heard_epoch;  ///< per RSU: the epoch heard in this step, 0 = silent
 
   void clear();
 };

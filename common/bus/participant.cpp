@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <mutex>
 
 #include "common/bus/cyclone_config.hpp"
 #include "common/bus/samples.hpp"
@@ -82,7 +84,10 @@ std::set<Incarnation> matched_with(dds_entity_t entity, List list, Describe desc
 // Producer and epoch stand in the key field of each sample under different names.
 template <class Sample>
 SampleInfo info_of(const Sample& sample) {
-  if constexpr (requires { sample.producer; sample.epoch; }) {
+  if constexpr (requires {
+                  sample.producer;
+                  sample.epoch;
+                }) {
     return {sample.producer, sample.epoch, true};
   } else if constexpr (requires { sample.producer; }) {
     return {sample.producer, 1, true};
@@ -95,7 +100,10 @@ SampleInfo info_of(const Sample& sample) {
 
 template <class Sample>
 void sign(Sample& sample, Incarnation self, std::uint32_t epoch) {
-  if constexpr (requires { sample.producer; sample.epoch; }) {
+  if constexpr (requires {
+                  sample.producer;
+                  sample.epoch;
+                }) {
     sample.producer = self;
     sample.epoch = epoch;
   } else if constexpr (requires { sample.producer; }) {
@@ -111,9 +119,46 @@ void sign(Sample& sample, Incarnation self, std::uint32_t epoch) {
 
 std::string library_version() { return std::string("Cyclone DDS ") + DDS_VERSION; }
 
+namespace {
+
+/// A process has one DDS domain per id, whoever in it asks first: participants of the same run share it.
+class Domain {
+ public:
+  static Expected<std::shared_ptr<Domain>> of(const Address& address) {
+    static std::mutex mutex;
+    static std::map<int, std::weak_ptr<Domain>> open;
+    const std::string where = "DDS domain " + std::to_string(address.domain);
+    const std::lock_guard lock(mutex);
+    if (auto domain = open[address.domain].lock()) {
+      if (domain->run_ == address.run) return domain;
+      return Error{where, "is in use for the run " + domain->run_ + " in this process"};
+    }
+    const std::string config = cyclone_config(address.run, std::getenv("CYCLONEDDS_URI"));
+    const dds_entity_t entity = dds_create_domain(static_cast<dds_domainid_t>(address.domain), config.c_str());
+    if (entity < 0) {
+      return Error{where, "cannot be configured (" + reason(entity) +
+                              "); check CYCLONEDDS_URI if it is set, and that the loopback interface is up"};
+    }
+    auto domain = std::make_shared<Domain>(entity, address.run);
+    open[address.domain] = domain;
+    return domain;
+  }
+
+  Domain(dds_entity_t entity, std::string run) : entity_(entity), run_(std::move(run)) {}
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+  ~Domain() { dds_delete(entity_); }
+
+ private:
+  dds_entity_t entity_;
+  std::string run_;
+};
+
+}  // namespace
+
 struct Participant::Entities {
   Incarnation self = 0;
-  dds_entity_t domain = 0;
+  std::shared_ptr<Domain> domain;
   dds_entity_t participant = 0;
   dds_entity_t waitset = 0;
   std::function<bool()> keep_writing = [] { return true; };
@@ -123,26 +168,20 @@ struct Participant::Entities {
   Entities& operator=(const Entities&) = delete;
   ~Entities() {
     if (participant > 0) dds_delete(participant);
-    if (domain > 0) dds_delete(domain);
   }
 };
 
 Expected<std::unique_ptr<Participant>> Participant::join(const Address& address, Incarnation self) {
   auto entities = std::make_unique<Entities>();
   entities->self = self;
-  const auto domain = static_cast<dds_domainid_t>(address.domain);
-  const std::string config = cyclone_config(address.run, std::getenv("CYCLONEDDS_URI"));
-  const std::string where = "DDS domain " + std::to_string(address.domain);
-  entities->domain = dds_create_domain(domain, config.c_str());
-  if (entities->domain < 0) {
-    return Error{where, "cannot be configured (" + reason(entities->domain) +
-                            "); check CYCLONEDDS_URI if it is set, and that the loopback interface is up"};
-  }
-  entities->participant = dds_create_participant(domain, nullptr, nullptr);
+  auto domain = Domain::of(address);
+  if (!domain) return domain.error();
+  entities->domain = std::move(domain).value();
+  entities->participant = dds_create_participant(static_cast<dds_domainid_t>(address.domain), nullptr, nullptr);
   if (entities->participant < 0) {
-    return Error{where, "cannot be joined (" + reason(entities->participant) +
-                            "); is loopback up, are UDP ports " + std::to_string(7400 + 250 * address.domain) +
-                            " and above free? `lukou doctor` checks both"};
+    return Error{"DDS domain " + std::to_string(address.domain),
+                 "cannot be joined (" + reason(entities->participant) + "); is loopback up, are UDP ports " +
+                     std::to_string(7400 + 250 * address.domain) + " and above free? `lukou doctor` checks both"};
   }
   entities->waitset = made(dds_create_waitset(entities->participant), "a waitset");
   return std::unique_ptr<Participant>(new Participant(std::move(entities)));
@@ -166,7 +205,8 @@ namespace {
 template <class Batch>
 dds_entity_t topic_of(Participant::Entities& entities) {
   using Topic = TopicOf<Batch>;
-  return made(dds_create_topic(entities.participant, Topic::descriptor(), Topic::kName, nullptr, nullptr), Topic::kName);
+  return made(dds_create_topic(entities.participant, Topic::descriptor(), Topic::kName, nullptr, nullptr),
+              Topic::kName);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include "common/bus/batches.hpp"
 #include "common/lockstep/messages.hpp"
 
-// Between the plain batches and the structs that idlc generates. Writing lends the batch's own storage to Cyclone; reading
-// copies out of Cyclone's loan.
+// Between the plain batches and the structs that idlc generates. Writing lends the batch's own storage to Cyclone;
+// reading copies out of Cyclone's loan.
 
 namespace lukou::bus {
 
@@ -22,12 +22,12 @@ enum class Service : std::uint8_t {
 template <class Batch>
 struct TopicOf;
 
-#define LUKOU_TOPIC(batch, sample, topic_name, topic_service)                               \
-  template <>                                                                               \
-  struct TopicOf<batch> {                                                                   \
-    using Sample = lukou_bus_##sample;                                                      \
-    static constexpr const char* kName = topic_name;                                        \
-    static constexpr Service kService = Service::topic_service;                             \
+#define LUKOU_TOPIC(batch, sample, topic_name, topic_service)                                \
+  template <>                                                                                \
+  struct TopicOf<batch> {                                                                    \
+    using Sample = lukou_bus_##sample;                                                       \
+    static constexpr const char* kName = topic_name;                                         \
+    static constexpr Service kService = Service::topic_service;                              \
     static const dds_topic_descriptor_t* descriptor() { return &lukou_bus_##sample##_desc; } \
   };
 

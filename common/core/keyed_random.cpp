@@ -9,8 +9,9 @@ namespace lukou {
 
 std::uint64_t random_bits(const DrawKey& key) {
   using Philox = r123::Philox4x32;
-  const Philox::ctr_type counter = {{static_cast<std::uint32_t>(key.index), static_cast<std::uint32_t>(key.index >> 32U),
-                                     key.entity, static_cast<std::uint32_t>(key.purpose)}};
+  const Philox::ctr_type counter = {{static_cast<std::uint32_t>(key.index),
+                                     static_cast<std::uint32_t>(key.index >> 32U), key.entity,
+                                     static_cast<std::uint32_t>(key.purpose)}};
   const Philox::key_type philox_key = {
       {static_cast<std::uint32_t>(key.run_seed), static_cast<std::uint32_t>(key.run_seed >> 32U)}};
   const auto block = Philox{}(counter, philox_key);

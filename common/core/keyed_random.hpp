@@ -6,14 +6,14 @@ namespace lukou {
 
 /// What a draw is for. The value is part of the key: never renumber, only append.
 enum class Purpose : std::uint16_t {
-  kArrivalGap = 1,       ///< unit exponential of arrival n on an approach
-  kDesiredSpeed = 2,     ///< a driver's share of the limit
-  kInitialSpeed = 3,     ///< speed at the entrance
-  kLane = 4,             ///< choice among the safe lanes
-  kEquipped = 5,         ///< compared with the equipped ratio
-  kActuationNoise = 6,   ///< noise on the acceleration, index = step
-  kTemporaryId = 7,      ///< the 8-byte id in the BSM
-  kTest = 100,           ///< tests
+  kArrivalGap = 1,      ///< unit exponential of arrival n on an approach
+  kDesiredSpeed = 2,    ///< a driver's share of the limit
+  kInitialSpeed = 3,    ///< speed at the entrance
+  kLane = 4,            ///< choice among the safe lanes
+  kEquipped = 5,        ///< compared with the equipped ratio
+  kActuationNoise = 6,  ///< noise on the acceleration, index = step
+  kTemporaryId = 7,     ///< the 8-byte id in the BSM
+  kTest = 100,          ///< tests
 };
 
 /// A draw is a pure function of its key: neither order nor other draws can change it.

@@ -21,16 +21,21 @@ double polynomial(const double* coefficients, int degree, double x) {
 
 /// Taylor series of the sine for |x| <= pi/4; the first omitted term is below 1e-19.
 double sin_reduced(double x) {
-  static constexpr double kInverseFactorials[] = {1.0,           -1.0 / 6,           1.0 / 120,           -1.0 / 5040,
-                                                  1.0 / 362880,  -1.0 / 39916800,    1.0 / 6227020800.0,
-                                                  -1.0 / 1307674368000.0};
+  static constexpr double kInverseFactorials[] = {
+      1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800.0, -1.0 / 1307674368000.0};
   return x * polynomial(kInverseFactorials, 7, x * x);
 }
 
 double cos_reduced(double x) {
-  static constexpr double kInverseFactorials[] = {1.0,           -1.0 / 2,        1.0 / 24,          -1.0 / 720,
-                                                  1.0 / 40320,   -1.0 / 3628800,  1.0 / 479001600.0,
-                                                  -1.0 / 87178291200.0, 1.0 / 20922789888000.0};
+  static constexpr double kInverseFactorials[] = {1.0,
+                                                  -1.0 / 2,
+                                                  1.0 / 24,
+                                                  -1.0 / 720,
+                                                  1.0 / 40320,
+                                                  -1.0 / 3628800,
+                                                  1.0 / 479001600.0,
+                                                  -1.0 / 87178291200.0,
+                                                  1.0 / 20922789888000.0};
   return polynomial(kInverseFactorials, 8, x * x);
 }
 
@@ -111,8 +116,8 @@ double normal_quantile(double p) {
                                   3.9307895800092710610e+4,
                                   2.8729085735721942674e+4,
                                   5.2264952788528545610e+3};
-  static constexpr double kC[] = {1.42343711074968357734e0,  4.63033784615654529590e0,  5.76949722146069140550e0,
-                                  3.64784832476320460504e0,  1.27045825245236838258e0,  2.41780725177450611770e-1,
+  static constexpr double kC[] = {1.42343711074968357734e0,  4.63033784615654529590e0, 5.76949722146069140550e0,
+                                  3.64784832476320460504e0,  1.27045825245236838258e0, 2.41780725177450611770e-1,
                                   2.27238449892691845833e-2, 7.74545014278341407640e-4};
   static constexpr double kD[] = {1.0,
                                   2.05319162663775882187e0,

@@ -40,9 +40,12 @@ double curve_length_m(Lane lane) {
   const Turn turn = turn_of(lane);
   const double lateral_m = kLaneWidth_m * (static_cast<double>(turn) + 0.5);
   switch (turn) {
-    case Turn::kLeft: return kHalfPi * (kStopLineOffset_m + lateral_m);
-    case Turn::kRight: return kHalfPi * (kStopLineOffset_m - lateral_m);
-    case Turn::kCenter: break;
+    case Turn::kLeft:
+      return kHalfPi * (kStopLineOffset_m + lateral_m);
+    case Turn::kRight:
+      return kHalfPi * (kStopLineOffset_m - lateral_m);
+    case Turn::kCenter:
+      break;
   }
   return 2 * kStopLineOffset_m;
 }

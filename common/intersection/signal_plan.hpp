@@ -26,8 +26,8 @@ struct TimedAspect {
 
 /// A fixed-time plan: every lane runs through its own list once a cycle.
 struct SignalPlan {
-  Step cycle = 0;   ///< steps, >= 1
-  Step offset = 0;  ///< steps; cycles start at offset + n * cycle
+  Step cycle = 0;                                      ///< steps, >= 1
+  Step offset = 0;                                     ///< steps; cycles start at offset + n * cycle
   std::array<std::vector<TimedAspect>, kLanes> lanes;  ///< durations add up to the cycle
 
   friend bool operator==(const SignalPlan&, const SignalPlan&) = default;

@@ -17,7 +17,9 @@ class SignalPromise {
   bool extend(Step first, std::span<const std::uint8_t> heads);
   /// Requires that `step` is promised and not forgotten.
   [[nodiscard]] const Heads& at(Step step) const;
-  [[nodiscard]] bool covers(Step step) const { return step >= first_ && step < first_ + static_cast<Step>(heads_.size()); }
+  [[nodiscard]] bool covers(Step step) const {
+    return step >= first_ && step < first_ + static_cast<Step>(heads_.size());
+  }
   /// Forgets what lies before `step`.
   void forget_before(Step step);
 

@@ -27,7 +27,8 @@ Expected<double> pace_of(const std::string& text) {
   if (const auto word = kWords.find(text); word != kWords.end()) return word->second;
   const auto value = number_in(text);
   if (value && *value > 0.0 && *value <= 1e6) return *value;
-  return Error{"pace", "`" + text + "` is not a pace; use max, very-slow, slow, medium, fast or a factor in (0, 1000000]"};
+  return Error{"pace",
+               "`" + text + "` is not a pace; use max, very-slow, slow, medium, fast or a factor in (0, 1000000]"};
 }
 
 ClockCore::ClockCore(ClockSettings settings)
@@ -106,10 +107,13 @@ void ClockCore::receive(double now_s, const Up& message) {
         end({kind, "", message.text, message.step});
       }
       break;
-    case Up::Kind::kLeave: members_.erase(found); break;
+    case Up::Kind::kLeave:
+      members_.erase(found);
+      break;
     case Up::Kind::kJoin:
     case Up::Kind::kRequest:
-    case Up::Kind::kLost: break;
+    case Up::Kind::kLost:
+      break;
   }
 }
 
@@ -126,8 +130,8 @@ void ClockCore::join(double now_s, const Up& message) {
   }
   const auto missing = missing_roles();
   if (std::ranges::find(missing, message.role) == missing.end()) {
-    return refuse("role `" + message.role + "` is unknown or taken; vacant: " +
-                  (missing.empty() ? std::string("none") : missing.front()));
+    return refuse("role `" + message.role +
+                  "` is unknown or taken; vacant: " + (missing.empty() ? std::string("none") : missing.front()));
   }
   const int rsu = rsu_index(message.role);
   if (rsu >= 0 && rsus_[static_cast<std::size_t>(rsu)].fenced) return;  // it asks again; receipts come first
@@ -193,7 +197,8 @@ Step ClockCore::budget(double now_s) {
     const double elapsed_s = now_s - pace_from_s_;
     const Step paced = pace_from_step_ + static_cast<Step>(elapsed_s * pace_ * static_cast<double>(kStepsPerSecond));
     // A run that cannot keep the pace does not catch up later.
-    const Step behind = std::max<Step>(settings_.credit, static_cast<Step>(pace_ * static_cast<double>(kStepsPerSecond)));
+    const Step behind =
+        std::max<Step>(settings_.credit, static_cast<Step>(pace_ * static_cast<double>(kStepsPerSecond)));
     if (paced > through_ + behind) {
       pace_from_s_ = now_s;
       pace_from_step_ = through_;
@@ -359,7 +364,8 @@ void ClockCore::watch(double now_s) {
     const auto missing = missing_roles();
     const std::string who = missing.empty() ? "everybody joined, but not all see each other" : missing.front();
     end({RunOutcome::Kind::kLost, missing.empty() ? std::string(kClockRole) : missing.front(),
-         "did not join within " + std::to_string(static_cast<int>(settings_.forming_limit_s)) + " s (missing: " + who + ")",
+         "did not join within " + std::to_string(static_cast<int>(settings_.forming_limit_s)) + " s (missing: " + who +
+             ")",
          recorded_});
     return;
   }
@@ -378,12 +384,13 @@ void ClockCore::watch(double now_s) {
                 "has not finished step " + std::to_string(member.progress + 1) + " for " +
                     std::to_string(static_cast<int>(now_s - progress_s_)) + " s");
   }
-  end({RunOutcome::Kind::kStalled, std::string(kClockRole), "no participant makes progress and none says why", recorded_});
+  end({RunOutcome::Kind::kStalled, std::string(kClockRole), "no participant makes progress and none says why",
+       recorded_});
 }
 
 RunState ClockCore::state() const {
-  RunState state{.run = settings_.run, .phase = phase_, .granted = through_, .recorded = recorded_, .end = end_,
-                 .pace = pace_};
+  RunState state{
+      .run = settings_.run, .phase = phase_, .granted = through_, .recorded = recorded_, .end = end_, .pace = pace_};
   if (phase_ == RunPhase::kForming) {
     for (const std::string& role : missing_roles()) state.text += (state.text.empty() ? "" : " ") + role;
   }

@@ -21,15 +21,15 @@ struct ClockSettings {
   std::string scenario_text;
   std::string scenario_hash;
   std::uint32_t rsus = 1;
-  Step end = 0;                 ///< last step
+  Step end = 0;  ///< last step
   Step signal_promise = 10;
-  double pace = 0.0;            ///< simulated seconds per wall second; 0 = as fast as possible
-  bool start_paused = false;    ///< held before step 1
+  double pace = 0.0;          ///< simulated seconds per wall second; 0 = as fast as possible
+  bool start_paused = false;  ///< held before step 1
   RsuLossPolicy on_rsu_loss = RsuLossPolicy::kAbort;
-  Step credit = 200;            ///< steps that may be granted beyond the recorder's last commit
-  bool watchdog = true;         ///< false: no deadline of any kind
-  double forming_limit_s = 30;  ///< wall time in which everybody must have joined
-  double stall_limit_s = 30;    ///< wall time without any progress
+  Step credit = 200;              ///< steps that may be granted beyond the recorder's last commit
+  bool watchdog = true;           ///< false: no deadline of any kind
+  double forming_limit_s = 30;    ///< wall time in which everybody must have joined
+  double stall_limit_s = 30;      ///< wall time without any progress
   std::vector<Directive> replay;  ///< directives of an earlier run
   /// Checks a live change against the schema and takes it over into the clock's own copy.
   std::function<Expected<Done>(const std::string& set)> check_change;
@@ -44,8 +44,8 @@ struct RunOutcome {
   Step complete_to = -1;
 };
 
-/// The clock's decisions, pure: messages and the wall time go in, messages come out. Start, roster, grants, pace, pause,
-/// directives, watch and end of a run, as docs/adr/0001-step-protocol.md describes.
+/// The clock's decisions, pure: messages and the wall time go in, messages come out. Start, roster, grants, pace,
+/// pause, directives, watch and end of a run, as docs/adr/0001-step-protocol.md describes.
 class ClockCore {
  public:
   explicit ClockCore(ClockSettings settings);
@@ -81,8 +81,8 @@ class ClockCore {
     bool attached = true;  ///< false: a returning RSU before its attach is granted
   };
   struct RsuLife {
-    std::uint32_t epoch = 0;    ///< of the last one that was welcomed
-    bool fenced = false;        ///< lost, the engine's receipt outstanding
+    std::uint32_t epoch = 0;  ///< of the last one that was welcomed
+    bool fenced = false;      ///< lost, the engine's receipt outstanding
     bool attach_due = false;
   };
 

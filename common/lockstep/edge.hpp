@@ -24,8 +24,8 @@ inline constexpr Step kNever = std::numeric_limits<Step>::max();
 /// One input of a stepped participant: holds the batches of one producer until the step that needs them, and says
 /// whether a step may start. Each step takes exactly the batch it needs, never "the newest".
 ///
-/// A producer's life is a list of epochs (process starts). Batch j belongs to the epoch whose interval [from, cut) holds
-/// j; outside all intervals the producer is silent and nobody waits for it.
+/// A producer's life is a list of epochs (process starts). Batch j belongs to the epoch whose interval [from, cut)
+/// holds j; outside all intervals the producer is silent and nobody waits for it.
 template <class Batch>
 class Edge {
  public:
@@ -126,9 +126,7 @@ class Edge {
     Step taken = -1;  ///< step of the batch taken last
   };
 
-  [[nodiscard]] Step round_up(Step step) const {
-    return (step + timing_.stride - 1) / timing_.stride * timing_.stride;
-  }
+  [[nodiscard]] Step round_up(Step step) const { return (step + timing_.stride - 1) / timing_.stride * timing_.stride; }
 
   [[nodiscard]] Step needed(Step k) const {
     if (k < timing_.delay) return timing_.initial ? 0 : -1;

@@ -29,23 +29,23 @@ struct Control {
     kReply = 8,    ///< to one: the answer to its request
   };
   Kind kind = Kind::kGrant;
-  Incarnation clock = 0;      ///< the sender
+  Incarnation clock = 0;  ///< the sender
   std::uint64_t sequence = 0;
-  Incarnation to = 0;         ///< 0 = everybody
-  std::uint32_t epoch = 0;    ///< Welcome, Fence
-  std::uint32_t rsu = 0;      ///< Fence
-  Step through = -1;          ///< Grant
-  bool last = false;          ///< Grant
-  bool ok = true;             ///< Reply
+  Incarnation to = 0;       ///< 0 = everybody
+  std::uint32_t epoch = 0;  ///< Welcome, Fence
+  std::uint32_t rsu = 0;    ///< Fence
+  Step through = -1;        ///< Grant
+  bool last = false;        ///< Grant
+  bool ok = true;           ///< Reply
   std::uint32_t roster_version = 0;
   std::vector<Incarnation> roster_incarnation;  ///< Roster; parallel to roster_role
   std::vector<std::string> roster_role;
-  std::vector<Step> directive_step;        ///< Grant: new ones; Welcome: all so far; parallel to directive_set
+  std::vector<Step> directive_step;  ///< Grant: new ones; Welcome: all so far; parallel to directive_set
   std::vector<std::string> directive_set;
-  std::vector<std::uint32_t> attach_rsu;   ///< Grant: RSUs that take part again; three parallel arrays
+  std::vector<std::uint32_t> attach_rsu;  ///< Grant: RSUs that take part again; three parallel arrays
   std::vector<std::uint32_t> attach_epoch;
   std::vector<Step> attach_from;
-  std::string text;     ///< Refuse, Abort, Reply; Welcome: the resolved scenario; last Grant: "", "stopped", "interrupted"
+  std::string text;  ///< Refuse, Abort, Reply; Welcome: the resolved scenario; last Grant: "", "stopped", "interrupted"
   std::string culprit;  ///< Abort: role
 };
 
@@ -60,7 +60,7 @@ struct Up {
     kRequest = 6,   ///< operator: text = verb and argument
     kClosed = 7,    ///< recorder: the record is safe; step = complete to; text = anomaly, "" if none
     kLeave = 8,
-    kLost = 9,      ///< launcher: the child with this role has ended; text = how
+    kLost = 9,  ///< launcher: the child with this role has ended; text = how
   };
   Kind kind = Kind::kProgress;
   Incarnation incarnation = 0;

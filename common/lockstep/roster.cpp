@@ -23,12 +23,17 @@ std::vector<std::string> roles_of_a_run(std::uint32_t rsus) {
 
 bool writes(std::string_view role, Topic topic) {
   switch (topic) {
-    case Topic::kControl: return role == kClockRole;
-    case Topic::kUp: return role != kClockRole;
+    case Topic::kControl:
+      return role == kClockRole;
+    case Topic::kUp:
+      return role != kClockRole;
     case Topic::kTraffic:
-    case Topic::kAir: return role == kEngineRole;
-    case Topic::kSignal: return role == kControllerRole;
-    case Topic::kRoadside: return rsu_index(role) >= 0;
+    case Topic::kAir:
+      return role == kEngineRole;
+    case Topic::kSignal:
+      return role == kControllerRole;
+    case Topic::kRoadside:
+      return rsu_index(role) >= 0;
   }
   return false;
 }
@@ -36,24 +41,36 @@ bool writes(std::string_view role, Topic topic) {
 bool reads(std::string_view role, Topic topic) {
   const bool is_rsu = rsu_index(role) >= 0;
   switch (topic) {
-    case Topic::kControl: return role != kClockRole;
-    case Topic::kUp: return role == kClockRole;
-    case Topic::kTraffic: return role == kRecorderRole;
-    case Topic::kAir: return is_rsu;
-    case Topic::kSignal: return role == kEngineRole || is_rsu || role == kRecorderRole;
-    case Topic::kRoadside: return role == kEngineRole;
+    case Topic::kControl:
+      return role != kClockRole;
+    case Topic::kUp:
+      return role == kClockRole;
+    case Topic::kTraffic:
+      return role == kRecorderRole;
+    case Topic::kAir:
+      return is_rsu;
+    case Topic::kSignal:
+      return role == kEngineRole || is_rsu || role == kRecorderRole;
+    case Topic::kRoadside:
+      return role == kEngineRole;
   }
   return false;
 }
 
 std::string_view name(RunPhase phase) {
   switch (phase) {
-    case RunPhase::kForming: return "forming";
-    case RunPhase::kRunning: return "running";
-    case RunPhase::kPaused: return "paused";
-    case RunPhase::kEnding: return "ending";
-    case RunPhase::kEnded: return "ended";
-    case RunPhase::kAborted: return "aborted";
+    case RunPhase::kForming:
+      return "forming";
+    case RunPhase::kRunning:
+      return "running";
+    case RunPhase::kPaused:
+      return "paused";
+    case RunPhase::kEnding:
+      return "ending";
+    case RunPhase::kEnded:
+      return "ended";
+    case RunPhase::kAborted:
+      return "aborted";
   }
   return "unknown";
 }

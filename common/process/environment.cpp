@@ -16,7 +16,7 @@ volatile std::sig_atomic_t g_stop_signal = 0;
 void remember(int signal) { g_stop_signal = signal; }
 
 void on_signal(int signal, void (*handler)(int)) {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
   sigaction(signal, &action, nullptr);
@@ -24,9 +24,7 @@ void on_signal(int signal, void (*handler)(int)) {
 
 }  // namespace
 
-double wall_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string wall_stamp() {
   const std::time_t now = std::time(nullptr);

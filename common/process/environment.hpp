@@ -11,11 +11,11 @@ namespace lukou::process {
 /// Exit codes of every program (docs/results.md).
 enum ExitCode : int {
   kExitDone = 0,
-  kExitInternal = 1,     ///< also: `verify` found a difference
-  kExitUsage = 2,        ///< usage or scenario error
-  kExitAborted = 3,      ///< a participant was lost or stalled
-  kExitAnomaly = 4,      ///< collision or overflow: the simulation itself ended the run
-  kExitIo = 5,           ///< input or output failed
+  kExitInternal = 1,       ///< also: `verify` found a difference
+  kExitUsage = 2,          ///< usage or scenario error
+  kExitAborted = 3,        ///< a participant was lost or stalled
+  kExitAnomaly = 4,        ///< collision or overflow: the simulation itself ended the run
+  kExitIo = 5,             ///< input or output failed
   kExitInterrupted = 130,  ///< Ctrl-C
   kExitTerminated = 143,   ///< SIGTERM
 };

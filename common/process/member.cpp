@@ -15,11 +15,14 @@ constexpr double kJoinAgain_s = 0.05;
 
 int MemberEnd::exit_code() const {
   switch (kind) {
-    case Kind::kEnded: return kExitDone;
+    case Kind::kEnded:
+      return kExitDone;
     case Kind::kAborted:
     case Kind::kClockLost:
-    case Kind::kFenced: return kExitAborted;
-    case Kind::kTerminated: return kExitTerminated;
+    case Kind::kFenced:
+      return kExitAborted;
+    case Kind::kTerminated:
+      return kExitTerminated;
   }
   return kExitInternal;
 }
@@ -31,7 +34,10 @@ Expected<std::unique_ptr<Member>> Member::create(Settings settings) {
 }
 
 Member::Member(Settings settings, std::unique_ptr<bus::Participant> participant)
-    : settings_(std::move(settings)), participant_(std::move(participant)), control_(*participant_), up_(*participant_) {
+    : settings_(std::move(settings)),
+      participant_(std::move(participant)),
+      control_(*participant_),
+      up_(*participant_) {
   faces(Topic::kControl, control_, false);
   faces(Topic::kUp, up_, true);
   participant_->keep_writing_while([this] {
@@ -57,9 +63,9 @@ Expected<std::string> Member::join() {
     participant_->wait(kJoinAgain_s / 5);
     poll();
     if (settings_.watchdog && wall_s() - begin_s > settings_.join_limit_s) {
-      return Error{"run " + settings_.address.run, "no clock answers in DDS domain " +
-                                                       std::to_string(settings_.address.domain) + " under the tag lukou-" +
-                                                       settings_.address.run + "; `lukou ctl list` names the runs"};
+      return Error{"run " + settings_.address.run,
+                   "no clock answers in DDS domain " + std::to_string(settings_.address.domain) +
+                       " under the tag lukou-" + settings_.address.run + "; `lukou ctl list` names the runs"};
     }
   }
   if (refused_) return *refused_;
@@ -99,9 +105,13 @@ void Member::receive(const Control& control) {
       for (std::size_t i = 0; i < control.directive_step.size(); ++i)
         directives_.push_back({control.directive_step[i], control.directive_set[i]});
       return;
-    case Control::Kind::kRefuse: refused_ = Error{"run " + settings_.address.run, "refused: " + control.text}; return;
-    case Control::Kind::kReply: return;
-    default: break;
+    case Control::Kind::kRefuse:
+      refused_ = Error{"run " + settings_.address.run, "refused: " + control.text};
+      return;
+    case Control::Kind::kReply:
+      return;
+    default:
+      break;
   }
   if (!scenario_) return;  // what is said to others before this process takes part
   switch (control.kind) {
@@ -135,9 +145,14 @@ void Member::receive(const Control& control) {
         send({.kind = Up::Kind::kReceipt, .number = control.rsu, .step = fence_(control.rsu, control.epoch)});
       }
       break;
-    case Control::Kind::kEnded: end_ = MemberEnd{MemberEnd::Kind::kEnded, "", control.text}; break;
-    case Control::Kind::kAbort: end_ = MemberEnd{MemberEnd::Kind::kAborted, control.culprit, control.text}; break;
-    default: break;
+    case Control::Kind::kEnded:
+      end_ = MemberEnd{MemberEnd::Kind::kEnded, "", control.text};
+      break;
+    case Control::Kind::kAbort:
+      end_ = MemberEnd{MemberEnd::Kind::kAborted, control.culprit, control.text};
+      break;
+    default:
+      break;
   }
 }
 

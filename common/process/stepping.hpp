@@ -9,9 +9,9 @@
 
 namespace lukou::process {
 
-/// The loop of a stepped participant: every step once, in order, as soon as a grant covers it and its inputs are in hand.
-/// `receive()` takes what came in from the process's readers into its edges; `waiting_for(k)` names whose batch step k
-/// lacks ("" = none); `execute(k)` computes the step and publishes its batches.
+/// The loop of a stepped participant: every step once, in order, as soon as a grant covers it and its inputs are in
+/// hand. `receive()` takes what came in from the process's readers into its edges; `waiting_for(k)` names whose batch
+/// step k lacks ("" = none); `execute(k)` computes the step and publishes its batches.
 template <class Receive, class WaitingFor, class Execute>
 void run_steps(Member& member, Receive receive, WaitingFor waiting_for, Execute execute) {
   std::optional<Step> next;

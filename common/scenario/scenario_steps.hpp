@@ -11,10 +11,10 @@ namespace lukou::scenario {
 /// What the step protocol needs to know of a scenario.
 struct Protocol {
   std::uint64_t seed = 0;
-  Step end = 0;                ///< last step
-  Step signal_promise = 0;     ///< steps
+  Step end = 0;             ///< last step
+  Step signal_promise = 0;  ///< steps
   std::uint32_t rsus = 0;
-  std::string on_rsu_loss;     ///< "ABORT", "CONTINUE" or "WAIT"
+  std::string on_rsu_loss;  ///< "ABORT", "CONTINUE" or "WAIT"
 };
 Protocol protocol(const Resolved& scenario);
 inline Step signal_promise(const Resolved& scenario) { return protocol(scenario).signal_promise; }

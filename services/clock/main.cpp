@@ -70,10 +70,13 @@ class ClockOnTheBus {
 int exit_code(const RunOutcome& outcome) {
   switch (outcome.kind) {
     case RunOutcome::Kind::kDone:
-    case RunOutcome::Kind::kStopped: return process::kExitDone;
-    case RunOutcome::Kind::kAnomaly: return process::kExitAnomaly;
+    case RunOutcome::Kind::kStopped:
+      return process::kExitDone;
+    case RunOutcome::Kind::kAnomaly:
+      return process::kExitAnomaly;
     case RunOutcome::Kind::kLost:
-    case RunOutcome::Kind::kStalled: return process::kExitAborted;
+    case RunOutcome::Kind::kStalled:
+      return process::kExitAborted;
   }
   return process::kExitInternal;
 }
@@ -101,8 +104,8 @@ Expected<ClockSettings> settings_of(const process::MemberOptions& options, scena
     if (!pace) return pace.error();
     settings.pace = pace.value();
   }
-  for (const auto& [name, limit] : {std::pair{"--stall-limit", &settings.stall_limit_s},
-                                    std::pair{"--forming-limit", &settings.forming_limit_s}}) {
+  for (const auto& [name, limit] :
+       {std::pair{"--stall-limit", &settings.stall_limit_s}, std::pair{"--forming-limit", &settings.forming_limit_s}}) {
     if (!options.has(name)) continue;
     *limit = std::atof(options.value(name).c_str());
     if (!(*limit > 0.0)) return Error{name, "must be a number of seconds above 0"};
@@ -118,15 +121,15 @@ Expected<ClockSettings> settings_of(const process::MemberOptions& options, scena
 }
 
 int run(int argc, char** argv) {
-  const auto options = process::member_options(
-      argc, argv, "The simulated time of a run: start, pace, pause, end.",
-      {process::kNoWatchdog,
-       {"--scenario", "resolved scenario file"},
-       {"--pace", "max, very-slow, slow, medium, fast or simulated seconds per second"},
-       {"--wait", "hold the run at step 0", true},
-       {"--replay-directives", "directives.textproto of an earlier run"},
-       {"--stall-limit", "wall seconds without progress after which a run is aborted"},
-       {"--forming-limit", "wall seconds in which everybody must have joined"}});
+  const auto options =
+      process::member_options(argc, argv, "The simulated time of a run: start, pace, pause, end.",
+                              {process::kNoWatchdog,
+                               {"--scenario", "resolved scenario file"},
+                               {"--pace", "max, very-slow, slow, medium, fast or simulated seconds per second"},
+                               {"--wait", "hold the run at step 0", true},
+                               {"--replay-directives", "directives.textproto of an earlier run"},
+                               {"--stall-limit", "wall seconds without progress after which a run is aborted"},
+                               {"--forming-limit", "wall seconds in which everybody must have joined"}});
   if (!options) return std::stoi(options.error().what);
   process::catch_terminate_signal();
   auto scenario = scenario::load(options.value().value("--scenario"));

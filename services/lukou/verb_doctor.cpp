@@ -46,7 +46,8 @@ Expected<double> talk(int domain) {
     listener.value()->wait(0.05);
     reader.take([&](RunState& state, const bus::SampleInfo&) { heard = state.run == address.run; });
   }
-  if (!heard) return Error{"DDS domain " + std::to_string(domain), "two participants do not hear each other within 5 s"};
+  if (!heard)
+    return Error{"DDS domain " + std::to_string(domain), "two participants do not hear each other within 5 s"};
   return process::wall_s() - begin_s;
 }
 

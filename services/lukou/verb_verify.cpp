@@ -122,17 +122,20 @@ class Verification {
     sched_getaffinity(0, sizeof ours, &ours);
     for (int core = 0; way.spinners && core < CPU_SETSIZE; ++core) {
       if (!CPU_ISSET(static_cast<unsigned>(core), &ours)) continue;
-      static_cast<void>(spinners.start({.role = "spinner", .command = {"/bin/sh", "-c", "while :; do :; done"}, .core = core}));
+      static_cast<void>(
+          spinners.start({.role = "spinner", .command = {"/bin/sh", "-c", "while :; do :; done"}, .core = core}));
     }
     std::atomic<bool> over = false;
     std::vector<std::jthread> others;
     std::vector<fs::path> folders;
     const std::string self = fs::read_symlink("/proc/self/exe").string();
     for (int i = 0; i < way.instances; ++i) {
-      const std::string run = "verify-" + std::to_string(getpid()) + "-" + std::to_string(number) + "-" + std::to_string(i);
+      const std::string run =
+          "verify-" + std::to_string(getpid()) + "-" + std::to_string(number) + "-" + std::to_string(i);
       folders.push_back(folder_ / (std::to_string(number) + "-" + std::to_string(i)));
-      launch::ChildSpec spec{.role = run, .command = {self, "run", scenario_.string(), "--quiet", "--run-id", run, "--out",
-                                                      folders.back().string()}};
+      launch::ChildSpec spec{
+          .role = run,
+          .command = {self, "run", scenario_.string(), "--quiet", "--run-id", run, "--out", folders.back().string()}};
       spec.command.insert(spec.command.end(), way.arguments.begin(), way.arguments.end());
       spec.log = folder_ / "output.txt";
       static_cast<void>(runs.start(spec));
@@ -186,7 +189,8 @@ int verify(const VerifyArguments& arguments) {
 }  // namespace
 
 Action add_verify(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("verify", "run a scenario in every way and compare all result files byte for byte");
+  CLI::App* verb =
+      app.add_subcommand("verify", "run a scenario in every way and compare all result files byte for byte");
   auto arguments = std::make_shared<VerifyArguments>();
   add_scenario_arguments(*verb, arguments->scenario);
   verb->add_flag("--keep", arguments->keep, "keep the results");

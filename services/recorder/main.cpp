@@ -7,22 +7,25 @@ using namespace lukou;
 
 namespace {
 
-constexpr Step kCreditEvery = 50;       ///< steps
-constexpr double kViewEvery_s = 0.05;   ///< wall time between two pictures
-constexpr double kIdleView_s = 0.5;     ///< the same picture again, for observers that come later
-constexpr double kFlushEvery_s = 1.0;   ///< wall time that a kill may cost
+constexpr Step kCreditEvery = 50;      ///< steps
+constexpr double kViewEvery_s = 0.05;  ///< wall time between two pictures
+constexpr double kIdleView_s = 0.5;    ///< the same picture again, for observers that come later
+constexpr double kFlushEvery_s = 1.0;  ///< wall time that a kill may cost
 
 /// How the manifest says that a run ended.
 std::string ended_by(const process::Member& member) {
   using Kind = process::MemberEnd::Kind;
   const process::MemberEnd& end = member.end();
   switch (end.kind) {
-    case Kind::kEnded: return member.stopped().empty() ? "done" : member.stopped();
+    case Kind::kEnded:
+      return member.stopped().empty() ? "done" : member.stopped();
     case Kind::kAborted:
       return (end.text.starts_with("has not finished") ? "stalled:" : "lost:") + end.culprit;
-    case Kind::kClockLost: return "lost:clock";
+    case Kind::kClockLost:
+      return "lost:clock";
     case Kind::kTerminated:
-    case Kind::kFenced: break;
+    case Kind::kFenced:
+      break;
   }
   return "lost:lukou";
 }
@@ -77,7 +80,8 @@ class Recorder {
  private:
   void close(const std::string& anomaly) {
     const std::string by = !anomaly.empty() ? anomaly : member_.stopped().empty() ? "done" : member_.stopped();
-    const std::string text = node_.anomaly() ? *node_.anomaly() + " at step " + std::to_string(node_.complete_to()) : "";
+    const std::string text =
+        node_.anomaly() ? *node_.anomaly() + " at step " + std::to_string(node_.complete_to()) : "";
     if (auto done = node_.close(by, text); !done) return fail(done.error());
     closed_ = true;
     show(0.0);
@@ -117,8 +121,8 @@ class Recorder {
 };
 
 int run(int argc, char** argv) {
-  const auto options = process::member_options(argc, argv, "The record of a run.",
-                                               {process::kNoWatchdog, {"--out", "result folder, made by the launcher"}});
+  const auto options = process::member_options(
+      argc, argv, "The record of a run.", {process::kNoWatchdog, {"--out", "result folder, made by the launcher"}});
   if (!options) return std::stoi(options.error().what);
   process::catch_terminate_signal();
   const std::string role(kRecorderRole);

@@ -21,8 +21,8 @@ class RecorderNode {
   /// `folder` exists and holds scenario.textproto.
   static Expected<RecorderNode> create(const scenario::Resolved& scenario, std::filesystem::path folder);
 
-  /// Commits the next step; the batch's storage is swapped for a used one. `new_signal` is the controller's newest batch
-  /// if one came. Errors: the disk, or a gap in the promise.
+  /// Commits the next step; the batch's storage is swapped for a used one. `new_signal` is the controller's newest
+  /// batch if one came. Errors: the disk, or a gap in the promise.
   Expected<Done> step(TrafficBatch& traffic, const SignalBatch* new_signal);
   /// Directives that took effect with the step that comes next.
   void add(const std::vector<Directive>& directives);

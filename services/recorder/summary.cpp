@@ -28,9 +28,9 @@ Json group_json(const GroupFigures& group) {
 }
 
 constexpr std::pair<AdviceFate, const char*> kRefused[] = {
-    {AdviceFate::kPastStopLine, "past_stop_line"},     {AdviceFate::kExpired, "expired"},
-    {AdviceFate::kSuperseded, "superseded"},           {AdviceFate::kUnknownVehicle, "unknown_vehicle"},
-    {AdviceFate::kMalformed, "malformed"},             {AdviceFate::kOutOfLimit, "limit"}};
+    {AdviceFate::kPastStopLine, "past_stop_line"}, {AdviceFate::kExpired, "expired"},
+    {AdviceFate::kSuperseded, "superseded"},       {AdviceFate::kUnknownVehicle, "unknown_vehicle"},
+    {AdviceFate::kMalformed, "malformed"},         {AdviceFate::kOutOfLimit, "limit"}};
 constexpr std::pair<AdviceFate, const char*> kChanged[] = {{AdviceFate::kChangedLimit, "limit"},
                                                            {AdviceFate::kChangedGuard, "guard"},
                                                            {AdviceFate::kChangedFollowing, "following"},

@@ -25,7 +25,8 @@ int run(int argc, char** argv) {
   auto scenario = scenario::load_text(welcome.value(), "welcome", "/");
   if (!scenario) return process::report_start(scenario.error(), process::kExitUsage);
 
-  SignalControllerNode node(scenario::signal_plan(scenario.value()).value(), scenario::signal_promise(scenario.value()));
+  SignalControllerNode node(scenario::signal_plan(scenario.value()).value(),
+                            scenario::signal_promise(scenario.value()));
   SignalBatch batch;
   process::run_steps(
       member, [] {}, [](Step) { return std::string(); },

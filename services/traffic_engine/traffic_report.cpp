@@ -78,6 +78,8 @@ void report(const traffic::Engine& engine, Step step, TrafficBatch& batch) {
   for (const Approach approach : kAllApproaches) {
     batch.arrived.push_back(engine.arrived(approach));
     batch.waiting.push_back(engine.waiting(approach));
+    batch.arrived_equipped.push_back(engine.arrived_equipped(approach));
+    batch.waiting_equipped.push_back(engine.waiting_equipped(approach));
   }
   batch.overflow = engine.overflows() ? 1 : 0;
 }

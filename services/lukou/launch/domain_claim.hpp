@@ -7,8 +7,8 @@
 
 namespace lukou::launch {
 
-/// A DDS domain id that belongs to one run on this host (network namespace): claimed by binding an abstract Unix socket,
-/// so that two launchers never get the same and the kernel frees it when the launcher dies, however it dies.
+/// A DDS domain id that belongs to one run on this host (network namespace): claimed by binding an abstract Unix
+/// socket, so that two launchers never get the same and the kernel frees it when the launcher dies, however it dies.
 class DomainClaim {
  public:
   /// The lowest free id in [0, 100]. `run` is published beside it for `lukou ctl list`.

@@ -23,7 +23,8 @@ std::string ended_by(const RunEnd& end) {
 int exit_code(const RunEnd& end) {
   if (end.io_failed) return process::kExitIo;
   if (!end.culprit.empty()) return process::kExitAborted;
-  if (end.interrupted_by != 0) return end.interrupted_by == SIGINT ? process::kExitInterrupted : process::kExitTerminated;
+  if (end.interrupted_by != 0)
+    return end.interrupted_by == SIGINT ? process::kExitInterrupted : process::kExitTerminated;
   return end.anomaly ? process::kExitAnomaly : process::kExitDone;
 }
 

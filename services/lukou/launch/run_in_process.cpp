@@ -79,9 +79,9 @@ class InProcessRun {
     std::optional<RsuNode> node;
     Edge<SignalBatch> signal{EdgeTiming{}};
     RoadsideBatch answer;
-    Step first = 0;         ///< its first step
-    Step heard_from = 0;    ///< the engine hears it from this step on ...
-    Step heard_to = kNever; ///< ... until this one, not included
+    Step first = 0;          ///< its first step
+    Step heard_from = 0;     ///< the engine hears it from this step on ...
+    Step heard_to = kNever;  ///< ... until this one, not included
   };
 
   Expected<Done> start(std::uint32_t rsu, std::uint32_t epoch) {
@@ -99,7 +99,8 @@ class InProcessRun {
   /// Losses and returns of RSUs, as the record of an earlier run tells them.
   Expected<Done> follow_hearings(Step k) {
     for (const scenario::Hearing& hearing : log_.hearings) {
-      if (hearing.rsu >= rsus_.size()) return Error{"hearings", "no rsu" + std::to_string(hearing.rsu) + " in the scenario"};
+      if (hearing.rsu >= rsus_.size())
+        return Error{"hearings", "no rsu" + std::to_string(hearing.rsu) + " in the scenario"};
       RsuLife& life = rsus_[hearing.rsu];
       if (hearing.epoch == 0 && hearing.from == k) {
         life.heard_to = k;
@@ -196,8 +197,13 @@ RunReport run_in_process(const RunRequest& request, const Listener& listener) {
     if (pace.value() > 0.0) process::sleep_s(std::max(0.0, start_s + time_s(k) / pace.value() - now_s));
     if (listener && now_s - told_s > 0.1) {
       told_s = now_s;
-      listener({.run = "in-process", .phase = "running", .step = k, .end = run.end(), .wall_s = now_s - start_s,
-                .cars_in_system = static_cast<long long>(run.cars()), .pace = pace.value()});
+      listener({.run = "in-process",
+                .phase = "running",
+                .step = k,
+                .end = run.end(),
+                .wall_s = now_s - start_s,
+                .cars_in_system = static_cast<long long>(run.cars()),
+                .pace = pace.value()});
     }
     early = run.recorder().anomaly().has_value() || process::stop_signal() != 0;
   }

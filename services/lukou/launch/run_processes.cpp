@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPoll_s = 0.05;
-constexpr double kLeave_s = 3.0;   ///< after the clock has left, until SIGTERM
-constexpr double kKill_s = 1.5;    ///< after SIGTERM, until SIGKILL
+constexpr double kLeave_s = 3.0;  ///< after the clock has left, until SIGTERM
+constexpr double kKill_s = 1.5;   ///< after SIGTERM, until SIGKILL
 
 /// Programs lie beside this one.
 fs::path program(const std::string& name) { return fs::read_symlink("/proc/self/exe").parent_path() / name; }
@@ -70,8 +70,11 @@ class Session {
     const std::vector<std::string> environment = {"LUKOU_RUN=" + address_.run,
                                                   "LUKOU_DOMAIN=" + std::to_string(address_.domain)};
     const auto member = [&](const std::string& role, const std::string& name, std::vector<std::string> more) {
-      ChildSpec spec{.role = role, .command = {program(name).string()}, .environment = environment,
-                     .core = core_for(request_, address_.domain), .log = folder_ / "operator.log"};
+      ChildSpec spec{.role = role,
+                     .command = {program(name).string()},
+                     .environment = environment,
+                     .core = core_for(request_, address_.domain),
+                     .log = folder_ / "operator.log"};
       if (!request_.watchdog) more.emplace_back("--no-watchdog");
       spec.command.insert(spec.command.end(), more.begin(), more.end());
       return children_.start(spec);
@@ -84,19 +87,21 @@ class Session {
     if (auto done = member(std::string(kClockRole), "lukou-clock", clock); !done) return done;
     if (auto done = member(std::string(kEngineRole), "lukou-traffic-engine", {}); !done) return done;
     if (auto done = member(std::string(kControllerRole), "lukou-signal-controller", {}); !done) return done;
-    if (auto done = member(std::string(kRecorderRole), "lukou-recorder", {"--out", folder_.string()}); !done) return done;
+    if (auto done = member(std::string(kRecorderRole), "lukou-recorder", {"--out", folder_.string()}); !done)
+      return done;
     for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu) {
       const std::string index = std::to_string(rsu);
       if (request_.rsu == "wait") {
-        process::log_warning("start " + rsu_role(rsu) + " by hand: LUKOU_RUN=" + address_.run + " LUKOU_DOMAIN=" +
-                             std::to_string(address_.domain) + " LUKOU_RSU=" + index + " " +
+        process::log_warning("start " + rsu_role(rsu) + " by hand: LUKOU_RUN=" + address_.run +
+                             " LUKOU_DOMAIN=" + std::to_string(address_.domain) + " LUKOU_RSU=" + index + " " +
                              program("lukou-rsu").string() + (request_.watchdog ? "" : " --no-watchdog"));
       } else if (request_.rsu.empty()) {
         if (auto done = member(rsu_role(rsu), "lukou-rsu", {"--index", index}); !done) return done;
       } else {
         auto variables = environment;
         variables.push_back("LUKOU_RSU=" + index);
-        ChildSpec spec{.role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + request_.rsu}, .environment = variables};
+        ChildSpec spec{
+            .role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + request_.rsu}, .environment = variables};
         if (auto done = children_.start(spec); !done) return done;
       }
     }
@@ -142,8 +147,12 @@ class Session {
         if (state->phase == RunPhase::kForming) client_->report_lost(lost.role, lost.text());
     }
     if (!listener_) return;
-    RunNews news{.run = address_.run, .phase = std::string(name(state->phase)), .step = std::max<Step>(state->recorded, 0),
-                 .end = state->end, .wall_s = running_s_ == 0.0 ? 0.0 : now_s - running_s_, .pace = state->pace};
+    RunNews news{.run = address_.run,
+                 .phase = std::string(name(state->phase)),
+                 .step = std::max<Step>(state->recorded, 0),
+                 .end = state->end,
+                 .wall_s = running_s_ == 0.0 ? 0.0 : now_s - running_s_,
+                 .pace = state->pace};
     if (client_->view()) {
       news.step = std::max<long long>(news.step, client_->view()->step);
       news.cars_in_system = client_->view()->in_system;

@@ -12,27 +12,27 @@ namespace lukou::launch {
 /// One run as the command line asks for it.
 struct RunRequest {
   scenario::Resolved scenario;
-  std::string name;                 ///< of the scenario, for the run id
-  std::string run_id;               ///< empty: made from name, seed and a random part
+  std::string name;    ///< of the scenario, for the run id
+  std::string run_id;  ///< empty: made from name, seed and a random part
   bool in_process = false;
   std::string pace = "max";
-  std::filesystem::path out;        ///< empty: result/<stamp>-<pace>
-  std::string rsu;                  ///< "" = the shipped one, "wait" = started by hand, otherwise a command
+  std::filesystem::path out;  ///< empty: result/<stamp>-<pace>
+  std::string rsu;            ///< "" = the shipped one, "wait" = started by hand, otherwise a command
   bool start_paused = false;
   bool watchdog = true;
-  std::string stall_limit_s;        ///< empty: the clock's default
-  std::filesystem::path replay;     ///< directives.textproto; empty: none
-  bool observe = true;              ///< attach to the run's picture, for the progress bar
-  std::optional<int> core;          ///< processor for the run's processes; empty: follows the domain id
+  std::string stall_limit_s;     ///< empty: the clock's default
+  std::filesystem::path replay;  ///< directives.textproto; empty: none
+  bool observe = true;           ///< attach to the run's picture, for the progress bar
+  std::optional<int> core;       ///< processor for the run's processes; empty: follows the domain id
 };
 
 /// What happened.
 struct RunReport {
   int exit_code = 0;
   std::filesystem::path folder;
-  std::string ended;      ///< for people: "done", "stopped by the operator", "aborted: rsu0 was killed ..."
-  long long steps = 0;    ///< executed and recorded
-  double wall_s = 0.0;    ///< from step 0 to the end
+  std::string ended;    ///< for people: "done", "stopped by the operator", "aborted: rsu0 was killed ..."
+  long long steps = 0;  ///< executed and recorded
+  double wall_s = 0.0;  ///< from step 0 to the end
   double start_up_s = 0.0;
 };
 
@@ -42,9 +42,9 @@ struct RunNews {
   std::string phase;
   long long step = 0;
   long long end = 0;
-  double wall_s = 0.0;           ///< since step 0
+  double wall_s = 0.0;            ///< since step 0
   long long cars_in_system = -1;  ///< -1: not known
-  double pace = 0.0;             ///< asked; 0 = as fast as possible
+  double pace = 0.0;              ///< asked; 0 = as fast as possible
 };
 using Listener = std::function<void(const RunNews&)>;
 

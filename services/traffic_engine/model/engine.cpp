@@ -16,8 +16,9 @@ Engine::Engine(const EngineParameters& parameters)
   for (int i = 0; i < kLanes; ++i) lanes_.emplace_back(parameters_);
   for (const Approach approach : kAllApproaches) {
     entrances_.push_back({.demand = Demand(parameters_.seed, approach, parameters_.demand[index(approach)]),
-                          .waiting_since_s = {},
-                          .next_vehicle = static_cast<std::uint32_t>(approach)});
+                          .waiting = {},
+                          .arrived_equipped = 0,
+                          .waiting_equipped = 0});
   }
 }
 
@@ -55,11 +56,17 @@ void Engine::hear(const Advice& advice, Step step) {
 
 void Engine::admit(Approach approach, double now_s) {
   Entrance& entrance = entrances_[index(approach)];
-  while (const auto arrival_s = entrance.demand.next_until(now_s)) entrance.waiting_since_s.push_back(*arrival_s);
-  while (!entrance.waiting_since_s.empty() && admit_first(approach)) {
+  for (std::uint32_t n = entrance.demand.taken(); const auto arrival_s = entrance.demand.next_until(now_s); ++n) {
+    const std::uint32_t vehicle = vehicle_number(approach, n);
+    const bool equipped = drawn_equipped(parameters_.seed, vehicle, parameters_.equipped_ratio);
+    entrance.waiting.push_back({*arrival_s, vehicle, equipped});
+    if (equipped) ++entrance.arrived_equipped, ++entrance.waiting_equipped;
   }
-  const auto& waiting = entrance.waiting_since_s;
-  if (!waiting.empty() && now_s - waiting.front() > parameters_.overflow_wait_s) overflows_ = true;
+  while (!entrance.waiting.empty() && admit_first(approach)) {
+  }
+  if (!entrance.waiting.empty() && now_s - entrance.waiting.front().since_s > parameters_.overflow_wait_s) {
+    overflows_ = true;
+  }
 }
 
 bool Engine::admit_first(Approach approach) {
@@ -71,7 +78,7 @@ bool Engine::admit_first(Approach approach) {
     last[place] = lanes_[index(lane_of(approach, static_cast<Turn>(i)))].last();
     safe[place] = lane_is_safe(law_, last[place]);
   }
-  const std::uint32_t vehicle = entrance.next_vehicle;
+  const std::uint32_t vehicle = entrance.waiting.front().vehicle;
   const double uniform =
       uniform01({.run_seed = parameters_.seed, .purpose = Purpose::kLane, .entity = vehicle, .index = 0});
   const auto chosen = chosen_lane(safe, parameters_.demand[index(approach)].lane_weights, uniform);
@@ -87,15 +94,15 @@ bool Engine::admit_first(Approach approach) {
   car.temporary_id = driver.temporary_id;
   car.entered = next_step_ - 1;
   car.vehicle = vehicle;
-  car.equipped = drawn_equipped(parameters_.seed, vehicle, parameters_.equipped_ratio);
+  car.equipped = entrance.waiting.front().equipped;
   lanes_[index(lane)].enter(car);
   entries_.push_back({vehicle, lane, car.equipped, car.motion.speed_mps, car.desired_speed_mps});
   if (car.equipped) {
     const auto at = std::ranges::lower_bound(stations_, car.temporary_id, {}, &Station::temporary_id);
     stations_.insert(at, {car.temporary_id, vehicle, lane});
   }
-  entrance.waiting_since_s.pop_front();
-  entrance.next_vehicle += static_cast<std::uint32_t>(kApproaches);
+  if (car.equipped) --entrance.waiting_equipped;
+  entrance.waiting.pop_front();
   return true;
 }
 

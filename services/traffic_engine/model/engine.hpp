@@ -19,9 +19,9 @@ struct Entry {
   double desired_speed_mps = 0.0;
 };
 
-/// Approach of a vehicle; its number is 4 * n + approach, n = place among the approach's arrivals.
-constexpr Approach approach_of_vehicle(std::uint32_t vehicle) {
-  return static_cast<Approach>(vehicle % static_cast<std::uint32_t>(kApproaches));
+/// Number of the vehicle that is the n-th, from 0, to arrive on an approach.
+constexpr std::uint32_t vehicle_number(Approach approach, std::uint32_t n) {
+  return n * static_cast<std::uint32_t>(kApproaches) + static_cast<std::uint32_t>(approach);
 }
 
 /// The traffic of the whole intersection: twelve lanes and the cars that wait outside.
@@ -48,17 +48,30 @@ class Engine {
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   [[nodiscard]] std::uint32_t arrived(Approach approach) const { return entrances_[index(approach)].demand.taken(); }
   [[nodiscard]] std::uint32_t waiting(Approach approach) const {
-    return static_cast<std::uint32_t>(entrances_[index(approach)].waiting_since_s.size());
+    return static_cast<std::uint32_t>(entrances_[index(approach)].waiting.size());
+  }
+  /// Of these, cars with an on-board unit: the ratio in force at a car's arrival decides.
+  [[nodiscard]] std::uint32_t arrived_equipped(Approach approach) const {
+    return entrances_[index(approach)].arrived_equipped;
+  }
+  [[nodiscard]] std::uint32_t waiting_equipped(Approach approach) const {
+    return entrances_[index(approach)].waiting_equipped;
   }
   /// True if some car has waited outside longer than overflow_wait_s.
   [[nodiscard]] bool overflows() const { return overflows_; }
   [[nodiscard]] const EngineParameters& parameters() const { return parameters_; }
 
  private:
+  struct Waiting {
+    double since_s = 0.0;
+    std::uint32_t vehicle = 0;
+    bool equipped = false;
+  };
   struct Entrance {
     Demand demand;
-    std::deque<double> waiting_since_s;  ///< of the cars outside, first come first
-    std::uint32_t next_vehicle = 0;      ///< of the first of them
+    std::deque<Waiting> waiting;  ///< cars outside, first come first
+    std::uint32_t arrived_equipped = 0;
+    std::uint32_t waiting_equipped = 0;
   };
   struct Station {
     std::uint64_t temporary_id = 0;

@@ -44,9 +44,11 @@ class Script {
     batch_.fate.push_back(static_cast<std::uint8_t>(fate));
     batch_.fate_again.push_back(again ? 1 : 0);
   }
-  void counts(std::uint32_t arrived, std::uint32_t waiting) {
+  void counts(std::uint32_t arrived, std::uint32_t arrived_equipped, std::uint32_t waiting) {
     batch_.arrived = {arrived, 0, 0, 0};
+    batch_.arrived_equipped = {arrived_equipped, 0, 0, 0};
     batch_.waiting = {waiting, 0, 0, 0};
+    batch_.waiting_equipped = {0, 0, 0, 0};
   }
   /// Hands the step in.
   void next() {
@@ -142,7 +144,7 @@ TEST(RunMeasures, WritesTheRowOfACar) {
   // 5 m/s below the desired speed: 2 m/s at 3 m/s2, then the relaxation.
   EXPECT_NEAR(car.delay_s, 69.5 - free_time_s({.initial_mps = 10.0, .desired_mps = 15.0}, 600.0), 1e-12);
   EXPECT_EQ(car.stops, 1U);
-  EXPECT_DOUBLE_EQ(car.stop_time_s, 0.1);
+  EXPECT_EQ(car.standing_steps, 1U);
   EXPECT_DOUBLE_EQ(car.left_s, 70.5);
 }
 
@@ -170,7 +172,7 @@ TEST(RunMeasures, HasNoMeansWithoutCars) {
   EXPECT_FALSE(figures.all.mean_delay_s);
   EXPECT_FALSE(figures.all.stops_per_vehicle);
   EXPECT_FALSE(figures.all.mean_queue_veh);
-  EXPECT_FALSE(figures.throughput_veh_per_h);
+  EXPECT_FALSE(figures.all.throughput_veh_per_h);
   EXPECT_FALSE(figures.min_head_distance_m);
 }
 
@@ -195,11 +197,11 @@ TEST(RunMeasures, SpeaksOnlyOfCarsThatEnteredAfterTheWarmUp) {
   EXPECT_DOUBLE_EQ(*figures.all.stops_per_vehicle, 1.0);
   EXPECT_DOUBLE_EQ(*figures.all.mean_stop_time_s, 0.1);
   EXPECT_NEAR(*figures.equipped.mean_delay_s, 0.2 - 40.0, 1e-9);
-  EXPECT_EQ(figures.vehicles_entered, 2U);
-  EXPECT_EQ(figures.vehicles_left, 2U);
+  EXPECT_EQ(figures.all.vehicles_entered, 2U);
+  EXPECT_EQ(figures.all.vehicles_left, 2U);
   // Two crossings in the 0.2 s after the warm-up.
-  EXPECT_NEAR(*figures.throughput_intersection_veh_per_h, 2.0 / 0.2 * 3600.0, 1e-6);
-  EXPECT_NEAR(*figures.throughput_veh_per_h, 2.0 / 0.2 * 900.0, 1e-6);
+  EXPECT_NEAR(*figures.all.throughput_intersection_veh_per_h, 2.0 / 0.2 * 3600.0, 1e-6);
+  EXPECT_NEAR(*figures.all.throughput_veh_per_h, 2.0 / 0.2 * 900.0, 1e-6);
 }
 
 TEST(RunMeasures, AveragesTheQueueOverStepsAndLanes) {
@@ -253,12 +255,16 @@ TEST(RunMeasures, SeesCollisionsReversalsAndCrossingsOnRed) {
 
 TEST(RunMeasures, CopiesTheNewestCountsOfArrivals) {
   Script script;
-  script.counts(3, 1);
+  script.counts(3, 1, 1);
   script.next();
-  script.counts(5, 2);
+  script.counts(5, 2, 2);
   script.next();
-  EXPECT_EQ(script.measures().figures().vehicles_arrived, 5U);
-  EXPECT_EQ(script.measures().figures().vehicles_waiting, 2U);
+  const RunFigures figures = script.measures().figures();
+  EXPECT_EQ(figures.all.vehicles_arrived, 5U);
+  EXPECT_EQ(figures.equipped.vehicles_arrived, 2U);
+  EXPECT_EQ(figures.unequipped.vehicles_arrived, 3U);
+  EXPECT_EQ(figures.all.vehicles_waiting, 2U);
+  EXPECT_EQ(figures.unequipped.vehicles_waiting, 2U);
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian 12 packages) and builds the release preset into build/. Quick when there is nothing to do.
+#   launch_scripts/setup.sh            programs only
+#   launch_scripts/setup.sh --tests    also everything that launch_scripts/test.sh needs
+#   launch_scripts/setup.sh --full     also what test.sh --full needs
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+packages=(g++ cmake ninja-build ccache cyclonedds-dev cyclonedds-tools libprotobuf-dev protobuf-compiler libspdlog-dev
+          libcli11-dev nlohmann-json3-dev libssl-dev librandom123-dev libgtest-dev librapidcheck-dev libbenchmark-dev)
+tier=${1:-}
+case "$tier" in
+  "" ) ;;
+  --tests ) packages+=(clang-format-19) ;;
+  --full ) packages+=(clang-format-19 clang-tidy-19 time) ;;
+  * ) echo "setup.sh: unknown argument $tier; use --tests or --full" >&2; exit 2 ;;
+esac
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  sudo=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "setup.sh: missing packages: ${missing[*]}; install them as root" >&2; exit 1; }
+    sudo=(sudo)
+  fi
+  echo "installing: ${missing[*]}" >&2
+  # The lists are refreshed only when they do not know a package, or know one that is gone.
+  install() { "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}" >&2; }
+  if ! apt-cache show "${missing[@]}" >/dev/null 2>&1 || ! install; then
+    "${sudo[@]}" apt-get update >&2
+    install
+  fi
+fi
+
+[ -f build/build.ninja ] || cmake --preset release >/dev/null
+if [ -n "$tier" ]; then
+  cmake --build build
+else
+  cmake --build build --target lukou_programs
+fi
