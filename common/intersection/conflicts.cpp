@@ -12,10 +12,10 @@ constexpr double kCarWidth_m = 1.8;
 bool paths_meet(Lane a, Lane b) {
   const RoadLengths road;
   constexpr double kSample_m = 0.5;
-  for (double s = 0.0; s <= curve_length_m(a); s += kSample_m) {
-    const Pose p = pose_on_path(road, a, road.approach_m + s);
-    for (double t = 0.0; t <= curve_length_m(b); t += kSample_m) {
-      const Pose q = pose_on_path(road, b, road.approach_m + t);
+  for (int i = 0; i * kSample_m <= curve_length_m(a); ++i) {
+    const Pose p = pose_on_path(road, a, road.approach_m + i * kSample_m);
+    for (int j = 0; j * kSample_m <= curve_length_m(b); ++j) {
+      const Pose q = pose_on_path(road, b, road.approach_m + j * kSample_m);
       const double dx = p.x_m - q.x_m;
       const double dy = p.y_m - q.y_m;
       if (dx * dx + dy * dy < kCarWidth_m * kCarWidth_m) return true;

@@ -7,12 +7,14 @@
 namespace lukou {
 
 bool SignalPromise::extend(Step first, std::span<const std::uint8_t> heads) {
-  if (heads_.empty()) first_ = std::max(first_, first);
-  const Step end = first_ + static_cast<Step>(heads_.size());
+  const Step begin = heads_.empty() ? std::max(first_, first) : first_;
+  const Step end = begin + static_cast<Step>(heads_.size());
   if (first > end || first < 0 || heads.size() % kLanes != 0) return false;
   const auto known = [](std::uint8_t value) { return value >= 1 && value <= 3; };
   if (!std::ranges::all_of(heads, known)) return false;
   const Step rows = static_cast<Step>(heads.size()) / kLanes;
+  if (end - first >= rows) return true;  // nothing new
+  first_ = begin;
   for (Step row = end - first; row < rows; ++row) {
     Heads added{};
     for (std::size_t lane = 0; lane < kLanes; ++lane) {

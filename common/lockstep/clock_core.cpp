@@ -1,36 +1,9 @@
 #include "common/lockstep/clock_core.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <utility>
 
 namespace lukou {
-namespace {
-
-std::string seconds_text(Step step) {
-  return std::to_string(step / kStepsPerSecond) + "." + std::to_string(step % kStepsPerSecond) + " s";
-}
-
-std::optional<double> number_in(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-}  // namespace
-
-Expected<double> pace_of(const std::string& text) {
-  static const std::map<std::string, double> kWords = {
-      {"max", 0.0}, {"very-slow", 0.1}, {"slow", 1.0}, {"medium", 10.0}, {"fast", 100.0}};
-  if (const auto word = kWords.find(text); word != kWords.end()) return word->second;
-  const auto value = number_in(text);
-  if (value && *value > 0.0 && *value <= 1e6) return *value;
-  return Error{"pace",
-               "`" + text + "` is not a pace; use max, very-slow, slow, medium, fast or a factor in (0, 1000000]"};
-}
-
 ClockCore::ClockCore(ClockSettings settings)
     : settings_(std::move(settings)),
       rsus_(settings_.rsus),
@@ -84,7 +57,7 @@ void ClockCore::receive(double now_s, const Up& message) {
       break;
     case Up::Kind::kProgress:
       if (message.step > member.progress) progress_s_ = now_s;
-      member.progress = message.step;
+      member.progress = std::max(member.progress, message.step);
       member.waiting_for = message.text;
       break;
     case Up::Kind::kCredit:
@@ -108,7 +81,8 @@ void ClockCore::receive(double now_s, const Up& message) {
       }
       break;
     case Up::Kind::kLeave:
-      members_.erase(found);
+      // Before the end it is a loss like any other: the others must not wait for it.
+      lost(now_s, message.incarnation, RunOutcome::Kind::kLost, "left before the end of the run");
       break;
     case Up::Kind::kJoin:
     case Up::Kind::kRequest:
@@ -141,6 +115,7 @@ void ClockCore::join(double now_s, const Up& message) {
     member.epoch = ++life.epoch;
     life.attach_due = phase_ != RunPhase::kForming;
     member.attached = !life.attach_due;
+    if (life.attach_due) member.first = kNever;
   }
   Control& welcome = send(Control::Kind::kWelcome, message.incarnation);
   welcome.epoch = member.epoch;
@@ -193,7 +168,7 @@ bool ClockCore::rsu_awaited() const {
 
 Step ClockCore::budget(double now_s) {
   Step through = std::min({end_, hold_at_, recorded_ + settings_.credit});
-  if (pace_ > 0.0 && hold_at_ == kNever) {
+  if (pace_ > 0.0 && !single_steps_) {
     const double elapsed_s = now_s - pace_from_s_;
     const Step paced = pace_from_step_ + static_cast<Step>(elapsed_s * pace_ * static_cast<double>(kStepsPerSecond));
     // A run that cannot keep the pace does not catch up later.
@@ -225,7 +200,7 @@ void ClockCore::grant(double now_s) {
     grant.directive_step.push_back(directives_[directives_sent_].step);
     grant.directive_set.push_back(directives_[directives_sent_].set);
   }
-  for (const auto& [incarnation, member] : members_) {
+  for (auto& [incarnation, member] : members_) {
     const int rsu = rsu_index(member.role);
     if (rsu < 0 || !member.attached || !rsus_[static_cast<std::size_t>(rsu)].attach_due) continue;
     rsus_[static_cast<std::size_t>(rsu)].attach_due = false;
@@ -233,78 +208,14 @@ void ClockCore::grant(double now_s) {
     grant.attach_epoch.push_back(member.epoch);
     // All that its first step needs is published after it could be heard.
     const EdgeTiming signal = signal_timing(settings_.signal_promise);
-    grant.attach_from.push_back(through_ + 1 + signal.delay + signal.stride);
+    member.first = through_ + 1 + signal.delay + signal.stride;
+    grant.attach_from.push_back(member.first);
   }
   through_ = through;
   if (last) {
     last_sent_ = true;
     phase_ = RunPhase::kEnding;
   }
-}
-
-void ClockCore::request(double now_s, const Up& message) {
-  const auto space = message.text.find(' ');
-  const std::string verb = message.text.substr(0, space);
-  const std::string argument = space == std::string::npos ? "" : message.text.substr(space + 1);
-  const auto answer = execute(now_s, verb, argument);
-  Control& reply = send(Control::Kind::kReply, message.incarnation);
-  reply.ok = answer.ok();
-  reply.text = answer ? answer.value() : answer.error().text();
-  grant(now_s);
-}
-
-Expected<std::string> ClockCore::execute(double now_s, const std::string& verb, const std::string& argument) {
-  if (outcome_ || phase_ == RunPhase::kEnding) return Error{verb, "the run is ending"};
-  // "at 300": a simulated time for pause and stop.
-  std::optional<Step> at;
-  if (argument.starts_with("at ")) {
-    const auto at_s = number_in(argument.substr(3));
-    if (!at_s || *at_s < 0.0 || *at_s > 1e9) return Error{verb, "`" + argument + "` is not a time; use `at SECONDS`"};
-    at = std::max(step_at_or_after(*at_s), through_);
-  }
-  if (verb == "pause") {
-    hold_at_ = at.value_or(std::max<Step>(through_, 0));
-    return "pauses at step " + std::to_string(hold_at_) + " (" + seconds_text(hold_at_) + ")";
-  }
-  if (verb == "resume") {
-    hold_at_ = kNever;
-    pace_from_s_ = now_s;
-    pace_from_step_ = std::max<Step>(through_, 0);
-    return std::string("runs");
-  }
-  if (verb == "step") {
-    const auto count = argument.empty() ? std::optional<double>(1.0) : number_in(argument);
-    if (!count || *count < 1.0 || *count > 1e9 || *count != std::floor(*count)) {
-      return Error{verb, "`" + argument + "` is not a number of steps; use a whole number of at least 1"};
-    }
-    const Step from = hold_at_ == kNever ? std::max<Step>(through_, 0) : hold_at_;
-    hold_at_ = from + static_cast<Step>(*count);
-    return "pauses at step " + std::to_string(hold_at_) + " (" + seconds_text(hold_at_) + ")";
-  }
-  if (verb == "pace") {
-    const auto pace = pace_of(argument);
-    if (!pace) return pace.error();
-    pace_ = pace.value();
-    pace_from_s_ = now_s;
-    pace_from_step_ = std::max<Step>(through_, 0);
-    return "pace " + argument;
-  }
-  if (verb == "stop" || verb == "interrupt") {
-    end_ = std::min(end_, at.value_or(std::max<Step>(through_, 0)));
-    hold_at_ = kNever;
-    if (end_ < settings_.end) stopped_ = verb == "stop" ? "stopped" : "interrupted";
-    return "ends at step " + std::to_string(end_) + " (" + seconds_text(end_) + ")";
-  }
-  if (verb == "set") return change(argument);
-  return Error{verb, "is not a request; use pause, resume, step, pace, stop or set"};
-}
-
-Expected<std::string> ClockCore::change(const std::string& set) {
-  if (!settings_.check_change) return Error{"set", "this run takes no changes"};
-  if (auto checked = settings_.check_change(set); !checked) return checked.error();
-  const Step step = std::max<Step>(through_ + 1, 1);
-  directives_.push_back({step, set});
-  return set + " from step " + std::to_string(step) + " (" + seconds_text(step) + ")";
 }
 
 void ClockCore::gone(double now_s, Incarnation incarnation) {
@@ -370,18 +281,21 @@ void ClockCore::watch(double now_s) {
     return;
   }
   // Nothing is due while the run is held or waits for the wall clock.
-  const bool all_done = std::ranges::all_of(members_, [&](const auto& m) { return m.second.progress >= through_; });
+  const bool all_done = std::ranges::all_of(
+      members_, [&](const auto& m) { return m.second.progress >= through_ || m.second.first > through_; });
   if (all_done && phase_ != RunPhase::kEnding) {
     progress_s_ = now_s;
     return;
   }
   if (now_s - progress_s_ < settings_.stall_limit_s) return;
-  // All stand still; the culprit is whoever waits for nobody.
+  // All stand still; the culprit is whoever waits for nobody. Who waits says so again and again: who is silent
+  // computes.
   for (const auto& [incarnation, member] : members_) {
-    if (!member.waiting_for.empty()) continue;
-    const std::string role = member.role;
+    if (member.first > through_) continue;
+    const bool silent = now_s - member.heard_s >= settings_.stall_limit_s / 2;
+    if (!member.waiting_for.empty() && !silent) continue;
     return lost(now_s, incarnation, RunOutcome::Kind::kStalled,
-                "has not finished step " + std::to_string(member.progress + 1) + " for " +
+                "has not finished step " + std::to_string(std::max(member.progress + 1, member.first)) + " for " +
                     std::to_string(static_cast<int>(now_s - progress_s_)) + " s");
   }
   end({RunOutcome::Kind::kStalled, std::string(kClockRole), "no participant makes progress and none says why",

@@ -76,6 +76,7 @@ class ClockCore {
     std::uint32_t epoch = 1;
     std::uint32_t sees = 0;
     Step progress = -1;
+    Step first = 0;  ///< its first step; kNever until the grant that attaches it
     std::string waiting_for;
     double heard_s = 0.0;
     bool attached = true;  ///< false: a returning RSU before its attach is granted
@@ -113,7 +114,8 @@ class ClockCore {
   Step through_ = -1;
   bool last_sent_ = false;
   Step recorded_ = -1;
-  Step hold_at_ = kNever;  ///< no grant beyond it: paused there
+  Step hold_at_ = kNever;      ///< no grant beyond it: paused there
+  bool single_steps_ = false;  ///< `step` asked for the way to it: at once, whatever the pace
   Step end_ = 0;
   std::string stopped_;  ///< why the run ends early: "stopped" or "interrupted"
   std::vector<Directive> directives_;

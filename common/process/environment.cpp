@@ -55,8 +55,11 @@ void catch_terminate_signal() {
   on_signal(SIGINT, SIG_IGN);
   on_signal(SIGHUP, SIG_IGN);
   on_signal(SIGTERM, remember);
+  on_signal(clock_died_signal(), remember);
   on_signal(SIGPIPE, SIG_IGN);
 }
+
+int clock_died_signal() { return SIGUSR1; }
 
 int stop_signal() { return g_stop_signal; }
 

@@ -30,7 +30,10 @@ Incarnation new_incarnation();
 
 /// From now on SIGINT and SIGTERM only set a flag.
 void catch_stop_signals();
-/// From now on SIGINT is ignored (children of the launcher: Ctrl-C is the launcher's business) and SIGTERM sets a flag.
+/// By this signal the launcher tells a run's processes that their clock has died.
+int clock_died_signal();
+/// From now on SIGINT is ignored (children of the launcher: Ctrl-C is the launcher's business); SIGTERM and
+/// clock_died_signal() set a flag.
 void catch_terminate_signal();
 /// The last stop signal received, 0 if none.
 int stop_signal();

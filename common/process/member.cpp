@@ -82,7 +82,9 @@ void Member::poll() {
   });
   if (roster_open_) check_roster();
   if (stop_signal() != 0 && running()) {
-    end_ = MemberEnd{MemberEnd::Kind::kTerminated, "", "ended by a signal"};
+    end_ = stop_signal() == clock_died_signal()
+               ? MemberEnd{MemberEnd::Kind::kClockLost, std::string(kClockRole), "the clock is gone"}
+               : MemberEnd{MemberEnd::Kind::kTerminated, "", "ended by a signal"};
   }
 }
 

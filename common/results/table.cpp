@@ -142,8 +142,7 @@ Expected<Done> TableWriter::flush() {
 }
 
 Expected<Done> TableWriter::sync() {
-  const auto flushed = flush();
-  if (!flushed) return flushed;
+  if (auto flushed = flush(); !flushed) return flushed;
   if (::fsync(file_) != 0) return failure(path_, "cannot be synced");
   return Done{};
 }

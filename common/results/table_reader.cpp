@@ -90,8 +90,9 @@ Expected<TableScan> scan_table(const std::filesystem::path& file, const RowCheck
 
 std::string check_step_row(const std::vector<std::string_view>& cells, std::int64_t row) {
   std::int64_t step = 0;
-  const char* end = cells[0].data() + cells[0].size();
-  const auto result = std::from_chars(cells[0].data(), end, step);
+  const char* begin = cells[0].data();
+  const char* end = begin + cells[0].size();
+  const auto result = std::from_chars(begin, end, step);
   if (result.ec != std::errc{} || result.ptr != end || step != row) {
     return "is of step `" + std::string(cells[0]) + "`, must be of step " + std::to_string(row);
   }

@@ -35,7 +35,7 @@ void warn_of_demand(const Scenario& scenario, const lukou::SignalPlan& plan, std
     const double demand = peak_flow_veh_per_h(scenario, approach);
     const double capacity = capacity_veh_per_h(plan, approach, {shares.left(), shares.center(), shares.right()});
     if (demand <= capacity) continue;
-    const auto whole = [](double flow) { return std::to_string(static_cast<long>(flow + 0.5)); };
+    const auto whole = [](double flow) { return std::to_string(std::lround(flow)); };
     warnings.push_back("traffic." + std::string(name(approach)) + ": the demand of " + whole(demand) +
                        " veh/h is above the capacity of " + whole(capacity) +
                        " veh/h under this signal plan; its queues grow until the entrance overflows");

@@ -7,10 +7,10 @@ using namespace lukou;
 
 namespace {
 
-constexpr Step kCreditEvery = 50;      ///< steps
+constexpr Step kCreditEvery = 50;      ///< steps; a credit means written: a kill does not take it back
 constexpr double kViewEvery_s = 0.05;  ///< wall time between two pictures
 constexpr double kIdleView_s = 0.5;    ///< the same picture again, for observers that come later
-constexpr double kFlushEvery_s = 1.0;  ///< wall time that a kill may cost
+constexpr double kCreditEvery_s = 0.5;  ///< wall time, for slow paces
 
 /// How the manifest says that a run ended.
 std::string ended_by(const process::Member& member) {
@@ -51,13 +51,14 @@ class Recorder {
     const SignalBatch* signal = signal_.take(k);
     if (auto done = node_.step(*traffic_.take(k), signal); !done) return fail(done.error());
     show(kViewEvery_s);
-    if (const double now_s = process::wall_s(); now_s - flushed_s_ > kFlushEvery_s) {
-      flushed_s_ = now_s;
-      if (auto done = node_.flush(); !done) return fail(done.error());
-    }
     const bool last = member_.last_step() && k == *member_.last_step();
     if (node_.anomaly() || last) return close(node_.anomaly() ? "anomaly:" + *node_.anomaly() : "");
-    if ((k + 1) % kCreditEvery == 0) member_.send({.kind = Up::Kind::kCredit, .step = k});
+    const double now_s = process::wall_s();
+    if (k < credited_ + kCreditEvery && now_s - credited_s_ < kCreditEvery_s) return;
+    credited_ = k;
+    credited_s_ = now_s;
+    if (auto done = node_.flush(); !done) return fail(done.error());
+    member_.send({.kind = Up::Kind::kCredit, .step = k});
   }
 
   /// The grant of the last step may say so after the step was committed.
@@ -115,7 +116,8 @@ class Recorder {
   bus::Writer<View> views_;
   View view_;
   double shown_s_ = 0.0;
-  double flushed_s_ = process::wall_s();
+  Step credited_ = -1;
+  double credited_s_ = process::wall_s();
   bool closed_ = false;
   bool io_failed_ = false;
 };

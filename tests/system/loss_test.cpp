@@ -26,7 +26,7 @@ TEST_P(LossOf, AProcessEndsTheRunWithinSixSecondsAndNamesIt) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
   Program launcher = long_run(run, folder / "r");
-  wait_for_step(run, 100);
+  ASSERT_TRUE(wait_for_step(run, 100));
   const auto processes = processes_of(run);
   ASSERT_TRUE(processes.contains(GetParam().program));
   kill(processes.at(GetParam().program), SIGKILL);
@@ -47,8 +47,8 @@ INSTANTIATE_TEST_SUITE_P(EveryRole, LossOf,
                                          Victim{"lukou-traffic-engine", "traffic-engine"},
                                          Victim{"lukou-signal-controller", "signal-controller"},
                                          Victim{"lukou-rsu", "rsu0"}, Victim{"lukou-recorder", "recorder"}),
-                         [](const auto& info) {
-                           std::string name = info.param.role;
+                         [](const auto& victim) {
+                           std::string name = victim.param.role;
                            std::erase(name, '-');
                            return name;
                          });
@@ -57,7 +57,7 @@ TEST(Loss, OfTheLauncherLeavesNoOrphanAndASoundFolder) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
   Program launcher = long_run(run, folder / "r");
-  wait_for_step(run, 100);
+  ASSERT_TRUE(wait_for_step(run, 100));
   launcher.signal(SIGKILL);
   EXPECT_LT(seconds_until_gone(run, 10.0), 6.0);
   const Finished inspection = lukou({"inspect", folder / "r"});
@@ -69,7 +69,7 @@ TEST(Loss, OfAStoppedProcessIsNoticedToo) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
   Program launcher = long_run(run, folder / "r");
-  wait_for_step(run, 50);
+  ASSERT_TRUE(wait_for_step(run, 50));
   kill(processes_of(run).at("lukou-rsu"), SIGSTOP);
   EXPECT_EQ(launcher.wait(12.0), 3);
   EXPECT_NE(launcher.err().find("aborted: rsu0"), std::string::npos) << launcher.err();
@@ -80,7 +80,7 @@ TEST(Loss, OfAnRsuIsSurvivedWhereTheScenarioSaysSoAndTheRecordReplaysIt) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
   Program launcher = long_run(run, folder / "r", {"--set", "run.on_rsu_loss=CONTINUE"});
-  wait_for_step(run, 400);
+  ASSERT_TRUE(wait_for_step(run, 400));
   const auto processes = processes_of(run);
   const pid_t first = processes.at("lukou-rsu");
   const std::string program = std::filesystem::path(LUKOU_PROGRAM).parent_path() / "lukou-rsu";
@@ -89,9 +89,9 @@ TEST(Loss, OfAnRsuIsSurvivedWhereTheScenarioSaysSoAndTheRecordReplaysIt) {
   ASSERT_NE(at, std::string::npos);
   const std::string domain = std::to_string(std::atoi(listed.out.c_str() + at + run.size() + 8));
   kill(first, SIGKILL);
-  wait_for_step(run, 700);
+  ASSERT_TRUE(wait_for_step(run, 700));
   Program second({}, {"LUKOU_RUN=" + run, "LUKOU_DOMAIN=" + domain}, program);
-  wait_for_step(run, 1200);
+  ASSERT_TRUE(wait_for_step(run, 1200));
   ASSERT_EQ(lukou({"ctl", run, "stop"}).code, 0);
   EXPECT_EQ(launcher.wait(20.0), 0) << launcher.err();
   EXPECT_EQ(second.wait(5.0), 0) << second.err();

@@ -13,7 +13,7 @@ TEST(Operator, SessionOfChangesReplaysByteForByte) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
   Program launcher({"run", "paper", "--duration", "300", "--pace", "50", "--quiet", "--run-id", run, "--out", folder / "r"});
-  wait_for_step(run, 200);
+  ASSERT_TRUE(wait_for_step(run, 200));
   EXPECT_EQ(lukou({"ctl", run, "set", "traffic.west.flow_veh_per_h=600"}).code, 0);
   EXPECT_EQ(lukou({"ctl", run, "pause"}).code, 0);
   EXPECT_NE(status(run).find(": paused,"), std::string::npos) << status(run);
@@ -60,7 +60,7 @@ TEST(Operator, InterruptsWithControlCAndTheResultsAreKeptAndMarked) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
   Program launcher({"run", "paper", "--duration", "7200", "--pace", "20", "--quiet", "--run-id", run, "--out", folder / "r"});
-  wait_for_step(run, 100);
+  ASSERT_TRUE(wait_for_step(run, 100));
   launcher.signal(SIGINT);
   EXPECT_EQ(launcher.wait(8.0), 130) << launcher.err();
   EXPECT_LT(seconds_until_gone(run, 5.0), 1.0);

@@ -119,13 +119,14 @@ std::map<std::string, pid_t> processes_of(const std::string& run) {
   return found;
 }
 
-void wait_for_step(const std::string& run, long long step) {
-  for (const double begin_s = now_s(); now_s() - begin_s < 60.0; pause_s(0.02)) {
+bool wait_for_step(const std::string& run, long long step) {
+  for (const double begin_s = now_s(); now_s() - begin_s < 30.0; pause_s(0.02)) {
     const Finished status = lukou({"ctl", run, "status"});
     const auto at = status.out.find(": running, ");
     if (status.code != 0 || at == std::string::npos) continue;
-    if (std::atof(status.out.c_str() + at + 11) * 10.0 >= static_cast<double>(step)) return;
+    if (std::atof(status.out.c_str() + at + 11) * 10.0 >= static_cast<double>(step)) return true;
   }
+  return false;
 }
 
 double seconds_until_gone(const std::string& run, double limit_s) {

@@ -57,8 +57,8 @@ Finished lukou(const std::vector<std::string>& arguments);
 
 /// Pids of the processes that belong to the run, by program name ("lukou-clock"); the launcher is not among them.
 std::map<std::string, pid_t> processes_of(const std::string& run);
-/// Waits until the run has all its processes and its recorder has recorded step `step`.
-void wait_for_step(const std::string& run, long long step);
+/// Waits until the recorder has recorded step `step`; false if that takes more than 30 s.
+[[nodiscard]] bool wait_for_step(const std::string& run, long long step);
 /// Seconds until no process of the run is left; more than `limit_s` if some is.
 double seconds_until_gone(const std::string& run, double limit_s);
 /// A name for a run that no other test uses.

@@ -114,7 +114,10 @@ class Session {
       clock_gone_s_ = now_s;
       clock_exit_ = ended;
       // Nobody ends the others any more: they close what they have.
-      if (!over()) children_.signal_all(SIGTERM), terminated_s_ = now_s;
+      if (!over()) {
+        children_.signal_all(process::clock_died_signal());
+        terminated_s_ = now_s;
+      }
       return;
     }
     if (ended.role == kRecorderRole && ended.code == process::kExitIo && !ended.signalled) io_failed_ = true;

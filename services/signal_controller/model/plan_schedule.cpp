@@ -1,5 +1,6 @@
 #include "services/signal_controller/model/plan_schedule.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -36,6 +37,7 @@ std::vector<HeadChange> PlanSchedule::changes(Lane lane, Step from, Step to) con
     if (end <= from + 1) continue;
     // The hand-over itself may change the head.
     Step at = std::max(plans_[i].from, from);
+    if (at >= end) continue;  // takes over after `to`
     if (at > from && aspect_at(plan, lane, at) != now) found.push_back({at, now = aspect_at(plan, lane, at)});
     for (at = next_change(plan, lane, at); at >= 0 && at < end; at = next_change(plan, lane, at)) {
       found.push_back({at, now = aspect_at(plan, lane, at)});
