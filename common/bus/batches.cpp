@@ -11,6 +11,7 @@ void TrafficBatch::clear() {
   empty(crossed_vehicle, crossed_time_s, crossed_aspect, crossed_committed);
   empty(left_vehicle, left_time_s);
   empty(fate_vehicle, fate_rsu, fate_sequence, fate, fate_again);
+  answers_malformed = 0;
   guard_interventions = 0;
   overflow = 0;
   heard_epoch.clear();

@@ -103,6 +103,7 @@ struct TrafficBatch {
   std::vector<std::uint8_t> fate;            ///< AdviceFate
   std::vector<std::uint8_t> fate_again;
 
+  std::uint32_t answers_malformed = 0;     ///< advice that the RSUs' algorithms gave and no message could carry
   std::uint32_t guard_interventions = 0;   ///< cars that the guard braked in this step
   std::uint8_t overflow = 0;               ///< 1 = some car has waited outside longer than the scenario allows
   std::vector<std::uint32_t> heard_epoch;  ///< per RSU: the epoch heard in this step, 0 = silent

@@ -121,6 +121,7 @@ void copy(const lukou_bus_Signal& sample, SignalBatch& batch) {
 
 void lend(const TrafficBatch& batch, lukou_bus_Traffic& sample, Scratch&) {
   sample.step = batch.step;
+  sample.answers_malformed = batch.answers_malformed;
   sample.guard_interventions = batch.guard_interventions;
   sample.overflow = batch.overflow;
   traffic_columns(batch, sample, kLend);
@@ -128,6 +129,7 @@ void lend(const TrafficBatch& batch, lukou_bus_Traffic& sample, Scratch&) {
 
 void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch) {
   batch.step = sample.step;
+  batch.answers_malformed = sample.answers_malformed;
   batch.guard_interventions = sample.guard_interventions;
   batch.overflow = sample.overflow;
   traffic_columns(batch, sample, kCopy);

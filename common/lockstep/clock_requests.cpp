@@ -47,8 +47,8 @@ Expected<std::string> ClockCore::execute(double now_s, const std::string& verb, 
   if (outcome_ || phase_ == RunPhase::kEnding) return Error{verb, "the run is ending"};
   // "at 300": a simulated time for pause and stop.
   std::optional<Step> at;
-  if (argument.starts_with("at ")) {
-    const auto at_s = number_in(argument.substr(3));
+  if (!argument.empty() && (verb == "pause" || verb == "stop" || verb == "interrupt")) {
+    const auto at_s = argument.starts_with("at ") ? number_in(argument.substr(3)) : std::nullopt;
     if (!at_s || *at_s < 0.0 || *at_s > 1e9) return Error{verb, "`" + argument + "` is not a time; use `at SECONDS`"};
     at = std::max(step_at_or_after(*at_s), through_);
   }

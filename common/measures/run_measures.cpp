@@ -153,6 +153,8 @@ void RunMeasures::add_departures(const TrafficBatch& batch) {
 }
 
 void RunMeasures::add_fates(const TrafficBatch& batch) {
+  totals_.advice_sent += batch.answers_malformed;
+  totals_.advice_by_fate[static_cast<std::size_t>(AdviceFate::kMalformed)] += batch.answers_malformed;
   for (std::size_t i = 0; i < batch.fate.size(); ++i) {
     LUKOU_EXPECT(batch.fate[i] < kAdviceFates);
     if (batch.fate_again[i] != 0) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "common/intersection/conflicts.hpp"
 #include "common/scenario/arrivals.hpp"

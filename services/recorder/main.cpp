@@ -7,9 +7,9 @@ using namespace lukou;
 
 namespace {
 
-constexpr Step kCreditEvery = 50;      ///< steps; a credit means written: a kill does not take it back
-constexpr double kViewEvery_s = 0.05;  ///< wall time between two pictures
-constexpr double kIdleView_s = 0.5;    ///< the same picture again, for observers that come later
+constexpr Step kCreditEvery = 50;       ///< steps; a credit means written: a kill does not take it back
+constexpr double kViewEvery_s = 0.05;   ///< wall time between two pictures
+constexpr double kIdleView_s = 0.5;     ///< the same picture again, for observers that come later
 constexpr double kCreditEvery_s = 0.5;  ///< wall time, for slow paces
 
 /// How the manifest says that a run ended.

@@ -64,7 +64,10 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
 
   report(engine_, k, traffic);
   report_undecodable(traffic);
-  for (const RoadsideBatch* batch : roadside) traffic.heard_epoch.push_back(batch != nullptr ? batch->epoch : 0);
+  for (const RoadsideBatch* batch : roadside) {
+    traffic.heard_epoch.push_back(batch != nullptr ? batch->epoch : 0);
+    if (batch != nullptr) traffic.answers_malformed += batch->answers_malformed;
+  }
   air.step = k;
   air.frames.clear();
   speak(k, air.frames);

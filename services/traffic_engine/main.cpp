@@ -73,8 +73,6 @@ int run(int argc, char** argv) {
         if (auto done = node.step(k, signal.take(k), heard, traffic, air); !done) {
           return process::give_up(member, role, done.error());
         }
-        traffic.heard_epoch.clear();
-        for (const auto& edge : roadside) traffic.heard_epoch.push_back(edge.heard_epoch(k));
         air_out.write(air, member.epoch());
         traffic_out.write(traffic, member.epoch());
       });

@@ -2,104 +2,30 @@
 // reading of the paper (docs/model.md). Exit code 1 if a figure leaves its band.
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <future>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "common/intersection/signal_plan.hpp"
-#include "common/measures/run_measures.hpp"
-#include "services/traffic_engine/model/engine.hpp"
-#include "services/traffic_engine/traffic_report.hpp"
+#include "tests/benchmark/figures.hpp"
+#include "tests/benchmark/plain_run.hpp"
 
 namespace {
 
 using namespace lukou;
+using test::BandTable;
+using test::plain_parameters;
+using test::PlainRun;
+using test::within;
 
 constexpr int kSeeds = 10;
-
-/// One run without guidance, step by step.
-class PlainRun {
- public:
-  PlainRun(const traffic::EngineParameters& parameters, SignalPlan plan, double warmup_s)
-      : engine_(parameters), plan_(std::move(plan)), measures_(measure_parameters(parameters, warmup_s)) {
-    step();
-  }
-
-  void step() {
-    Heads heads{};
-    for (int i = 0; i < kLanes; ++i) heads[index(Lane(i))] = aspect_at(plan_, Lane(i), next_ - 1);
-    engine_.step(next_, heads, {});
-    report(engine_, next_, batch_);
-    measures_.add(batch_);
-    ++next_;
-  }
-  void run_to(double end_s) {
-    while (next_ <= step_at_or_after(end_s)) step();
-  }
-  [[nodiscard]] const TrafficBatch& batch() const { return batch_; }
-  [[nodiscard]] const RunMeasures& measures() const { return measures_; }
-
- private:
-  static MeasureParameters measure_parameters(const traffic::EngineParameters& parameters, double warmup_s) {
-    MeasureParameters measure;
-    measure.warmup_s = warmup_s;
-    measure.road = parameters.road;
-    return measure;
-  }
-
-  traffic::Engine engine_;
-  SignalPlan plan_;
-  RunMeasures measures_;
-  TrafficBatch batch_;
-  Step next_ = 0;
-};
-
-traffic::EngineParameters parameters(double flow_veh_per_h, int seed) {
-  traffic::EngineParameters engine;
-  engine.seed = static_cast<std::uint64_t>(seed);
-  engine.equipped_ratio = 0.0;
-  for (auto& demand : engine.demand) demand.flows = {{.from_s = 0.0, .flow_veh_per_h = flow_veh_per_h}};
-  return engine;
-}
 
 /// Results of the seeds 1 ... kSeeds, two at a time.
 template <class Result>
 std::vector<Result> for_each_seed(const std::function<Result(int)>& run) {
-  std::vector<Result> results;
-  for (int seed = 1; seed <= kSeeds; seed += 2) {
-    auto second = std::async(std::launch::async, run, seed + 1);
-    results.push_back(run(seed));
-    results.push_back(second.get());
-  }
-  return results;
+  return test::two_at_a_time<Result>(kSeeds, [&run](int i) { return run(i + 1); });
 }
-
-struct Band {
-  double low;
-  double high;
-};
-
-class Table {
- public:
-  void row(const std::string& what, double value, Band band) {
-    const bool inside = value >= band.low && value <= band.high;
-    all_inside_ = all_inside_ && inside;
-    std::printf("%-46s %10.3f   [%.3f, %.3f]  %s\n", what.c_str(), value, band.low, band.high,
-                inside ? "ok" : "OUTSIDE");
-  }
-  [[nodiscard]] bool all_inside() const { return all_inside_; }
-
- private:
-  bool all_inside_ = true;
-};
-
-Band within(double value, double share) { return {value * (1.0 - share), value * (1.0 + share)}; }
 
 double mean(const std::vector<RunFigures>& runs, const std::function<double(const RunFigures&)>& figure) {
   double sum = 0.0;
@@ -122,7 +48,7 @@ constexpr std::array<Reference, 4> kReferences = {{{600.0, 15.5, 13.1, 0.39, 7.1
 constexpr double kRun_s = 7400.0;
 constexpr double kWarmup_s = 2000.0;
 
-void add_safety(Table& table, const std::string& what, const std::vector<RunFigures>& runs) {
+void add_safety(BandTable& table, const std::string& what, const std::vector<RunFigures>& runs) {
   table.row(what + " collisions", mean(runs, [](const RunFigures& f) { return double(f.collisions); }), {0.0, 0.0});
   table.row(what + " reversals", mean(runs, [](const RunFigures& f) { return double(f.reversals); }), {0.0, 0.0});
   double least_m = 1e9;
@@ -130,9 +56,9 @@ void add_safety(Table& table, const std::string& what, const std::vector<RunFigu
   table.row(what + " least head distance m", least_m, {5.495, 6.0});
 }
 
-void compare_flow(Table& table, const Reference& reference) {
+void compare_flow(BandTable& table, const Reference& reference) {
   const auto runs = for_each_seed<RunFigures>([&](int seed) {
-    PlainRun run(parameters(reference.flow_veh_per_h, seed), paper_plan(), kWarmup_s);
+    PlainRun run(plain_parameters(reference.flow_veh_per_h, seed), paper_plan(), kWarmup_s);
     run.run_to(kRun_s);
     return run.measures().figures();
   });
@@ -151,9 +77,9 @@ void compare_flow(Table& table, const Reference& reference) {
   add_safety(table, flow, runs);
 }
 
-void compare_yellow(Table& table, double flow_veh_per_h) {
+void compare_yellow(BandTable& table, double flow_veh_per_h) {
   const auto runs = for_each_seed<RunFigures>([&](int seed) {
-    PlainRun run(parameters(flow_veh_per_h, seed), paper_yellow_plan(), kWarmup_s);
+    PlainRun run(plain_parameters(flow_veh_per_h, seed), paper_yellow_plan(), kWarmup_s);
     run.run_to(kRun_s);
     return run.measures().figures();
   });
@@ -169,7 +95,7 @@ struct Discharge {
 };
 
 Discharge discharge(int seed) {
-  auto demand = parameters(3600.0, seed);
+  auto demand = plain_parameters(3600.0, seed);
   demand.road.approach_m = 1000.0;
   PlainRun run(demand, paper_plan(), kWarmup_s);
   struct Last {
@@ -209,7 +135,7 @@ Discharge discharge(int seed) {
   return result;
 }
 
-void compare_saturation(Table& table) {
+void compare_saturation(BandTable& table) {
   double headway_s = 0.0;
   double headways = 0.0;
   double capacity_veh_per_h = 0.0;
@@ -225,7 +151,7 @@ void compare_saturation(Table& table) {
 /// Time from which on the running mean stop time stays within 5 % of its final value.
 double settling_time_s(int seed) {
   constexpr double kEnd_s = 10800.0;
-  PlainRun run(parameters(1800.0, seed), paper_plan(), 0.0);
+  PlainRun run(plain_parameters(1800.0, seed), paper_plan(), 0.0);
   std::vector<double> running;
   for (Step k = 1; k <= step_at_or_after(kEnd_s); ++k) {
     run.step();
@@ -239,38 +165,20 @@ double settling_time_s(int seed) {
   return time_s(static_cast<Step>(from) + 1);
 }
 
-void compare_settling(Table& table) {
+void compare_settling(BandTable& table) {
   double sum_s = 0.0;
   for (const double at_s : for_each_seed<double>(settling_time_s)) sum_s += at_s;
   table.row("figure 6: settled within 5 % after s", sum_s / kSeeds, {900.0, 1700.0});
 }
 
-/// Vehicle updates per second of the engine alone, one thread, 1800 veh/h, with noise.
-double updates_per_s() {
-  traffic::Engine engine(parameters(1800.0, 1));
-  const SignalPlan plan = paper_plan();
-  std::array<Heads, 900> cycle{};
-  for (Step k = 0; k < 900; ++k)
-    for (int i = 0; i < kLanes; ++i) cycle[static_cast<std::size_t>(k)][index(Lane(i))] = aspect_at(plan, Lane(i), k);
-  double updates = 0.0;
-  const auto start = std::chrono::steady_clock::now();
-  for (Step k = 0; k <= 108000; ++k) {
-    engine.step(k, cycle[static_cast<std::size_t>((k + 899) % 900)], {});
-    for (int i = 0; i < kLanes; ++i) updates += static_cast<double>(engine.lane(Lane(i)).cars().size());
-  }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  return updates / took.count();
-}
-
 }  // namespace
 
 int main() {
-  Table table;
+  BandTable table;
   for (const Reference& reference : kReferences) compare_flow(table, reference);
   for (const double flow_veh_per_h : {600.0, 1200.0, 1800.0}) compare_yellow(table, flow_veh_per_h);
   compare_saturation(table);
   compare_settling(table);
-  std::printf("vehicle updates per second, engine alone: %.1f million\n", updates_per_s() / 1e6);
   std::printf(table.all_inside() ? "all figures inside their bands\n" : "some figure is OUTSIDE its band\n");
   return table.all_inside() ? 0 : 1;
 }

@@ -31,10 +31,16 @@ TEST(CommandLine, NamesLineAndColumnOfAMistakeAndWhatWouldBeRight) {
 }
 
 TEST(CommandLine, RefusesBadRequestsWithCodeTwo) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, {"rum"}, {"run"}, {"run", "no-such-scenario"}, {"run", "paper", "--pace", "warp"},
-        {"run", "paper", "--set", "run.duration_s"}, {"run", "paper", "--mode", "both"}, {"inspect", "/no/such/folder"},
-        {"run", "paper", "--replay-directives", "/no/such/file"}, {"validate", "paper", "--set", "no.such.field=1"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"rum"},
+                                                    {"run"},
+                                                    {"run", "no-such-scenario"},
+                                                    {"run", "paper", "--pace", "warp"},
+                                                    {"run", "paper", "--set", "run.duration_s"},
+                                                    {"run", "paper", "--mode", "both"},
+                                                    {"inspect", "/no/such/folder"},
+                                                    {"run", "paper", "--replay-directives", "/no/such/file"},
+                                                    {"validate", "paper", "--set", "no.such.field=1"}}) {
     const Finished run = lukou(arguments);
     EXPECT_EQ(run.code, 2) << (arguments.empty() ? "(nothing)" : arguments.back()) << ": " << run.err;
     EXPECT_FALSE(run.err.empty());

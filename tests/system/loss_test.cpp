@@ -9,8 +9,8 @@ namespace {
 
 /// A run that would take minutes, at 20 times real time so that steps go on while a test acts.
 Program long_run(const std::string& run, const std::string& out, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments = {"run", "paper", "--duration", "7200", "--pace", "20", "--quiet",
-                                        "--run-id", run, "--out", out};
+  std::vector<std::string> arguments = {"run",     "paper",    "--duration", "7200",  "--pace", "20",
+                                        "--quiet", "--run-id", run,          "--out", out};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return Program(arguments);
 }
@@ -39,7 +39,8 @@ TEST_P(LossOf, AProcessEndsTheRunWithinSixSecondsAndNamesIt) {
   EXPECT_NE(inspection.out.find(std::string("ended by lost:") + GetParam().role), std::string::npos) << inspection.out;
   const auto at = inspection.out.find("complete to step ");
   ASSERT_NE(at, std::string::npos);
-  EXPECT_GE(std::atoll(inspection.out.c_str() + at + 17), 80);  // 100 were recorded; a second may be lost with the recorder
+  EXPECT_GE(std::atoll(inspection.out.c_str() + at + 17),
+            80);  // 100 were recorded; a second may be lost with the recorder
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryRole, LossOf,

@@ -12,7 +12,8 @@ std::string status(const std::string& run) { return lukou({"ctl", run, "status"}
 TEST(Operator, SessionOfChangesReplaysByteForByte) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
-  Program launcher({"run", "paper", "--duration", "300", "--pace", "50", "--quiet", "--run-id", run, "--out", folder / "r"});
+  Program launcher(
+      {"run", "paper", "--duration", "300", "--pace", "50", "--quiet", "--run-id", run, "--out", folder / "r"});
   ASSERT_TRUE(wait_for_step(run, 200));
   EXPECT_EQ(lukou({"ctl", run, "set", "traffic.west.flow_veh_per_h=600"}).code, 0);
   EXPECT_EQ(lukou({"ctl", run, "pause"}).code, 0);
@@ -33,7 +34,10 @@ TEST(Operator, SessionOfChangesReplaysByteForByte) {
     EXPECT_EQ(differing_files(folder / "r", folder / mode), std::vector<std::string>{}) << mode;
   }
   // And the session did change something.
-  ASSERT_EQ(lukou({"run", folder / "r/scenario.textproto", "--mode", "in-process", "--quiet", "--out", folder / "plain"}).code, 0);
+  ASSERT_EQ(
+      lukou({"run", folder / "r/scenario.textproto", "--mode", "in-process", "--quiet", "--out", folder / "plain"})
+          .code,
+      0);
   EXPECT_NE(content(folder / "r/road.csv"), content(folder / "plain/road.csv"));
 }
 
@@ -59,7 +63,8 @@ TEST(Operator, IsToldWhyARequestIsRefused) {
 TEST(Operator, InterruptsWithControlCAndTheResultsAreKeptAndMarked) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
-  Program launcher({"run", "paper", "--duration", "7200", "--pace", "20", "--quiet", "--run-id", run, "--out", folder / "r"});
+  Program launcher(
+      {"run", "paper", "--duration", "7200", "--pace", "20", "--quiet", "--run-id", run, "--out", folder / "r"});
   ASSERT_TRUE(wait_for_step(run, 100));
   launcher.signal(SIGINT);
   EXPECT_EQ(launcher.wait(8.0), 130) << launcher.err();
@@ -77,7 +82,8 @@ TEST(Operator, StopsAtAnAnnouncedTime) {
   EXPECT_EQ(lukou({"ctl", run, "stop", "at", "60"}).code, 0);
   EXPECT_EQ(launcher.wait(30.0), 0) << launcher.err();
   const std::string inspection = lukou({"inspect", folder / "r"}).out;
-  EXPECT_NE(inspection.find("complete to step 600 (60.0 s) of 72000, ended by stopped"), std::string::npos) << inspection;
+  EXPECT_NE(inspection.find("complete to step 600 (60.0 s) of 72000, ended by stopped"), std::string::npos)
+      << inspection;
 }
 
 }  // namespace

@@ -17,9 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void pause_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
@@ -148,7 +146,8 @@ std::vector<std::string> differing_files(const fs::path& a, const fs::path& b) {
   names.erase("operator.log");
   std::vector<std::string> differing;
   for (const std::string& name : names)
-    if (!fs::exists(a / name) || !fs::exists(b / name) || content(a / name) != content(b / name)) differing.push_back(name);
+    if (!fs::exists(a / name) || !fs::exists(b / name) || content(a / name) != content(b / name))
+      differing.push_back(name);
   return differing;
 }
 

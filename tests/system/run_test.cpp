@@ -17,8 +17,9 @@ long rows(const std::filesystem::path& table) {
 TEST(Run, GivesTheSameBytesAsProcessesAndInOneProcess) {
   const TemporaryFolder folder;
   ASSERT_EQ(lukou({"run", "paper", "--duration", "120", "--quiet", "--out", folder / "bus"}).code, 0);
-  ASSERT_EQ(lukou({"run", "paper", "--duration", "120", "--quiet", "--mode", "in-process", "--out", folder / "alone"}).code,
-            0);
+  ASSERT_EQ(
+      lukou({"run", "paper", "--duration", "120", "--quiet", "--mode", "in-process", "--out", folder / "alone"}).code,
+      0);
   EXPECT_EQ(differing_files(folder / "bus", folder / "alone"), std::vector<std::string>{});
   EXPECT_EQ(rows(folder / "bus/stop.csv"), 1200);  // a row per step, ten steps a second
   EXPECT_EQ(rows(folder / "bus/road.csv"), 1200);
@@ -40,10 +41,18 @@ TEST(Run, DependsOnTheSeed) {
 TEST(Run, TakesAPlanWrittenOutByTheUserAndSeveralRsus) {
   const TemporaryFolder folder;
   const std::vector<std::string> arguments = {
-      "run", "paper", "--duration", "60", "--quiet", "--set", "rsus[0].algorithm=none", "--set",
+      "run",
+      "paper",
+      "--duration",
+      "60",
+      "--quiet",
+      "--set",
+      "rsus[0].algorithm=none",
+      "--set",
       "signals.plan={cycle_s: 60 lane_plans {lanes: [\"WL\",\"WC\",\"WR\",\"EL\",\"EC\",\"ER\"] aspects {aspect: GREEN "
       "duration_s: 25} aspects {aspect: YELLOW duration_s: 3} aspects {aspect: RED duration_s: 32}} lane_plans {lanes: "
-      "[\"SL\",\"SC\",\"SR\",\"NL\",\"NC\",\"NR\"] aspects {aspect: RED duration_s: 30} aspects {aspect: GREEN duration_s: 25} "
+      "[\"SL\",\"SC\",\"SR\",\"NL\",\"NC\",\"NR\"] aspects {aspect: RED duration_s: 30} aspects {aspect: GREEN "
+      "duration_s: 25} "
       "aspects {aspect: YELLOW duration_s: 3} aspects {aspect: RED duration_s: 2}}}"};
   auto bus = arguments;
   bus.insert(bus.end(), {"--out", folder / "bus"});
@@ -57,9 +66,17 @@ TEST(Run, TakesAPlanWrittenOutByTheUserAndSeveralRsus) {
 
 TEST(Run, EndsAtAnOverflowWithCodeFourAndKeepsTheTables) {
   const TemporaryFolder folder;
-  const std::vector<std::string> saturated = {"run", "paper", "--duration", "1200", "--quiet", "--set",
-                                              "traffic.west.flow_veh_per_h=3600", "--set",
-                                              "traffic.approach_length_m=200", "--set", "rsus[0].algorithm=none"};
+  const std::vector<std::string> saturated = {"run",
+                                              "paper",
+                                              "--duration",
+                                              "1200",
+                                              "--quiet",
+                                              "--set",
+                                              "traffic.west.flow_veh_per_h=3600",
+                                              "--set",
+                                              "traffic.approach_length_m=200",
+                                              "--set",
+                                              "rsus[0].algorithm=none"};
   auto stop = saturated;
   stop.insert(stop.end(), {"--out", folder / "stop"});
   EXPECT_EQ(lukou(stop).code, 4);
@@ -82,7 +99,8 @@ TEST(Run, EndsAtAnOverflowWithCodeFourAndKeepsTheTables) {
 
 TEST(Run, KeepsThePaceThatIsAsked) {
   const TemporaryFolder folder;
-  const Finished run = lukou({"run", "paper", "--duration", "30", "--pace", "10", "--quiet", "--json", "--out", folder / "r"});
+  const Finished run =
+      lukou({"run", "paper", "--duration", "30", "--pace", "10", "--quiet", "--json", "--out", folder / "r"});
   ASSERT_EQ(run.code, 0);
   const auto at = run.out.find("\"real_time_factor\":");
   ASSERT_NE(at, std::string::npos);

@@ -65,9 +65,6 @@ class InProcessRun {
     }
     if (auto done = engine_->step(k, engine_signal_.take(k), heard_, traffic_, air_); !done) return done;
     cars_ = traffic_.vehicle.size();
-    traffic_.heard_epoch.clear();
-    for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu)
-      traffic_.heard_epoch.push_back(heard_[rsu] != nullptr ? rsus_[rsu].answer.epoch : 0);
     for (auto& rsu : rsus_) {
       if (rsu.node && k >= rsu.first) rsu.node->step(k, rsu.signal.take(k), air_, rsu.answer);
     }

@@ -93,7 +93,7 @@ TEST(ConflictsOfAPlan, AreOnlyThePermittedOnesOfThePaper) {
 TEST(ConflictsOfAPlan, AreNoneIfLeftTurnsAreProtected) { EXPECT_TRUE(conflicts_of(protected_left_plan()).empty()); }
 
 TEST(ConflictsOfAPlan, BeginWithTheFirstStepOfTheOverlapAndCountYellow) {
-  // The west's straight lane is yellow for 3 s into the south's green: one second of it overlaps with green, at 44 s.
+  // WC is green until 42 s and yellow until 45 s of the cycle, which starts at 5 s; SC turns green at 44 s already.
   SignalPlan plan = paper_plan();
   plan.offset = 50;
   plan.lanes[index(lane("WC"))] = {{Aspect::kGreen, 420}, {Aspect::kYellow, 30}, {Aspect::kRed, 450}};
@@ -102,7 +102,7 @@ TEST(ConflictsOfAPlan, BeginWithTheFirstStepOfTheOverlapAndCountYellow) {
   for (const PlanConflict& found : conflicts_of(plan)) {
     if (found.kind == Conflict::kHard) hard.push_back(found);
   }
-  // EC and WC are green until 45 s, EL and NL unchanged: SC meets WC, EC and, through their straight crossing, EL.
+  // EC and EL are green until 45 s: SC meets WC, EC and EL.
   ASSERT_FALSE(hard.empty());
   EXPECT_EQ(pairs(hard), (std::set<std::string>{"WCSC", "SCEC", "SCEL"}));
   EXPECT_EQ(text(hard.front()), "WC and SC at 49.0 s") << "44 s after the cycle's start at 5 s";
