@@ -11,8 +11,8 @@ constexpr double kNorth_m = kEarthRadius_m * kRadiansPerUnit;  // length of 1e-7
 
 /// Length of 1e-7 degree along the parallel of the reference point [m].
 double east_m() {
-  static const double east = kNorth_m * math::cos(kGeoReference.latitude_e7 * kRadiansPerUnit);
-  return east;
+  static const double kEast = kNorth_m * math::cos(kGeoReference.latitude_e7 * kRadiansPerUnit);
+  return kEast;
 }
 
 /// `reference` + `units`, rounded to the nearest integer, if it lies within [low, high].

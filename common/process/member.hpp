@@ -119,7 +119,6 @@ class Member {
   Step progress_ = -1;
   std::string waiting_for_;
   double heartbeat_s_ = 0.0;
-  double signal_check_s_ = 0.0;
   std::optional<MemberEnd> end_;
 };
 

@@ -65,6 +65,9 @@ int run(const RunArguments& arguments) {
   } else if (!report.folder.empty()) {
     std::fputs(report::summary_text(report).c_str(), stderr);
   }
+  const bool failed = report.exit_code == process::kExitInternal || report.exit_code == process::kExitAborted ||
+                      report.exit_code == process::kExitIo;
+  if (failed && !report.folder.empty()) std::fputs(report::last_words(report).c_str(), stderr);
   return report.exit_code;
 }
 

@@ -9,6 +9,7 @@
 #include "common/results/inspection.hpp"
 #include "common/results/json.hpp"
 #include "common/results/result_folder.hpp"
+#include "common/results/tables.hpp"
 #include "common/scenario/scenario_steps.hpp"
 
 namespace lukou::launch {
@@ -51,7 +52,9 @@ Expected<std::filesystem::path> create_result(const RunRequest& request) {
 }
 
 RunReport finish_result(const RunRequest& request, const std::filesystem::path& folder, const RunEnd& end) {
-  if (end.recorder_died) {
+  // A recorder that was killed left no manifest, one that was ended before the start not even tables.
+  if (!std::filesystem::exists(folder / results::kManifest)) {
+    static_cast<void>(results::RunTables::create(folder));
     const scenario::Protocol protocol = scenario::protocol(request.scenario);
     const results::Manifest facts{.lukou_version = std::string(version()),
                                   .scenario_hash = scenario::hash(request.scenario),

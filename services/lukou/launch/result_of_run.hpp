@@ -13,11 +13,10 @@ Expected<std::filesystem::path> create_result(const RunRequest& request);
 
 /// How a run ended, as the launcher saw it.
 struct RunEnd {
-  int interrupted_by = 0;      ///< signal; 0 = none
-  bool io_failed = false;      ///< the record could not be written
-  bool recorder_died = false;  ///< the manifest is the launcher's to write
-  bool anomaly = false;        ///< collision or overflow
-  std::string culprit;         ///< role; empty unless somebody was lost or stalled
+  int interrupted_by = 0;  ///< signal; 0 = none
+  bool io_failed = false;  ///< the record could not be written
+  bool anomaly = false;    ///< collision or overflow
+  std::string culprit;     ///< role; empty unless somebody was lost or stalled
   std::string text;
   double wall_s = 0.0;
   double start_up_s = 0.0;

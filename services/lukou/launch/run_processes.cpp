@@ -111,6 +111,9 @@ class Session {
   void on_exit(const ChildExit& ended) {
     const double now_s = process::wall_s();
     if (ended.role == kClockRole) {
+      // Its last word may still be under way.
+      for (int i = 0; i < 5 && !ended.signalled && !over(); ++i) client_->poll(kPoll_s);
+      follow_state();
       clock_gone_s_ = now_s;
       clock_exit_ = ended;
       // Nobody ends the others any more: they close what they have.
@@ -125,7 +128,6 @@ class Session {
       lost_.push_back(ended);
       client_->report_lost(ended.role, ended.text());
     }
-    if (ended.role == kRecorderRole && (ended.signalled || ended.code == process::kExitInternal)) recorder_died_ = true;
   }
 
   [[nodiscard]] bool over() const {
@@ -191,10 +193,9 @@ class Session {
     RunEnd end;
     end.interrupted_by = interrupted_;
     end.io_failed = io_failed_;
-    end.recorder_died = recorder_died_;
     end.anomaly = clock_exit_.code == process::kExitAnomaly && !clock_exit_.signalled;
     if (over_s_ == 0.0 && !clock_exit_.well()) {
-      culprit_ = std::string(kClockRole);
+      culprit_ = clock_exit_.signalled || lost_.empty() ? std::string(kClockRole) : lost_.front().role;
       text_ = clock_exit_.text();
     }
     // What the launcher saw of the culprit says more than the clock's guess.
@@ -230,7 +231,6 @@ class Session {
   std::string culprit_;
   std::string text_;
   bool io_failed_ = false;
-  bool recorder_died_ = false;
   int interrupted_ = 0;
   double begun_s_ = 0.0;
   double running_s_ = 0.0;

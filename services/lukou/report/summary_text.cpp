@@ -1,6 +1,7 @@
 #include "services/lukou/report/summary_text.hpp"
 
 #include <cstdio>
+#include <deque>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -67,6 +68,19 @@ std::string summary_text(const launch::RunReport& report) {
     }
   }
   return text + "results: " + report.folder.string() + "\n";
+}
+
+std::string last_words(const launch::RunReport& report) {
+  constexpr std::size_t kLines = 5;
+  std::ifstream log(report.folder / "operator.log");
+  std::deque<std::string> lines;
+  for (std::string line; std::getline(log, line);) {
+    lines.push_back(line);
+    if (lines.size() > kLines) lines.pop_front();
+  }
+  std::string text;
+  for (const std::string& line : lines) text += "  " + line + "\n";
+  return text.empty() ? "" : "operator.log ends with:\n" + text;
 }
 
 std::string summary_json(const launch::RunReport& report) {

@@ -32,6 +32,8 @@ class Watcher {
     through_ = control.through;
     last_ = control.last;
   }
+  [[nodiscard]] bool attached() const { return epoch_ > 1; }
+  [[nodiscard]] bool changed() const { return directive_ > 0; }
   [[nodiscard]] bool last() const { return last_; }
   [[nodiscard]] bool over() const { return over_; }
   [[nodiscard]] Step through() const { return through_; }
@@ -49,9 +51,16 @@ constexpr const char* kRequests[] = {"pause",      "resume",       "step",      
                                      "pace max",   "set good.a=1", "set good.b=2", "set bad.c", "pause at 30",
                                      "stop at 90", "fly",          "resume",       "pace slow", "resume"};
 
+/// How often the schedules came to something worth checking.
+struct Seen {
+  int ends = 0;
+  int returns = 0;
+  int changes = 0;
+};
+
 /// A run in which members, operator and RSU do what the seed says; answers to requests are left out of the check of the
 /// end, since an operator is answered after it, too.
-void play(std::uint32_t seed, RsuLossPolicy policy) {
+void play(std::uint32_t seed, RsuLossPolicy policy, Seen& seen) {
   std::mt19937 random(seed);
   const auto below = [&](Step n) { return static_cast<Step>(random()) % n; };
   auto settings = ClockRig::usual();
@@ -124,17 +133,24 @@ void play(std::uint32_t seed, RsuLossPolicy policy) {
       if (testing::Test::HasFatalFailure()) return;
     }
   }
+  seen.ends += watcher.over() ? 1 : 0;
+  seen.returns += watcher.attached() ? 1 : 0;
+  seen.changes += watcher.changed() ? 1 : 0;
   ASSERT_GE(watcher.through(), 0) << "the schedule got the run going";
   ASSERT_EQ(watcher.over(), core.outcome().has_value());
 }
 
 TEST(ClockInAnySchedule, KeepsItsPromisesToTheMembers) {
+  Seen seen;
   for (const RsuLossPolicy policy : {RsuLossPolicy::kAbort, RsuLossPolicy::kContinue, RsuLossPolicy::kWait}) {
     for (std::uint32_t seed = 1; seed <= 200; ++seed) {
-      play(seed, policy);
+      play(seed, policy, seen);
       ASSERT_FALSE(testing::Test::HasFatalFailure()) << "seed " << seed << " policy " << static_cast<int>(policy);
     }
   }
+  EXPECT_GT(seen.ends, 100);
+  EXPECT_GT(seen.returns, 100);
+  EXPECT_GT(seen.changes, 300);
 }
 
 }  // namespace

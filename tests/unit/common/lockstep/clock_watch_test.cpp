@@ -122,12 +122,13 @@ TEST(ClockWatch, ExpectsOfAReturnedRsuOnlyTheStepsFromItsAttachOn) {
   ClockRig rig = running(settings);
   rig.core.gone(rig.now_s, kRsu);
   rig.up({.kind = Up::Kind::kReceipt, .incarnation = kEngine, .number = 0, .step = 42});
+  static_cast<void>(rig.ask("pause"));
   rig.all_did(rig.granted());
   rig.join(kReborn, "rsu0");
   rig.everybody_sees();
   static_cast<void>(rig.heard());
-  static_cast<void>(rig.ask("pause"));
   static_cast<void>(rig.ask("step 3"));  // the grant that attaches it, at a later step
+  ASSERT_FALSE(rig.others.empty());
   ASSERT_EQ(rig.others.back().attach_from.size(), 1U);
   ASSERT_GT(rig.others.back().attach_from[0], rig.granted());
   for (int n = 0; n < 600; ++n) {
