@@ -11,6 +11,10 @@ ClockCore::ClockCore(ClockSettings settings)
       directives_(settings_.replay),
       pace_(settings_.pace) {
   if (settings_.start_paused) hold_at_ = 0;
+  if (settings_.stop_at && *settings_.stop_at < end_) {
+    end_ = *settings_.stop_at;
+    stopped_ = "stopped";
+  }
 }
 
 Control& ClockCore::send(Control::Kind kind, Incarnation to) {

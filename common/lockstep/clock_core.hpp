@@ -31,6 +31,7 @@ struct ClockSettings {
   double forming_limit_s = 30;    ///< wall time in which everybody must have joined
   double stall_limit_s = 30;      ///< wall time without any progress
   std::vector<Directive> replay;  ///< directives of an earlier run
+  std::optional<Step> stop_at;    ///< and the step at which its operator ended it
   /// Checks a live change against the schema and takes it over into the clock's own copy.
   std::function<Expected<Done>(const std::string& set)> check_change;
 };

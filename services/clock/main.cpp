@@ -20,7 +20,7 @@ constexpr double kIdleTick_s = 0.1;
 class ClockOnTheBus {
  public:
   ClockOnTheBus(bus::Participant& participant, ClockCore& core)
-      : participant_(participant), core_(core), up_(participant), control_(participant), state_(participant) {}
+      : core_(core), up_(participant), control_(participant), state_(participant) {}
 
   void receive() {
     up_.take([this](Up& message, const bus::SampleInfo& info) {
@@ -57,7 +57,6 @@ class ClockOnTheBus {
     return true;
   }
 
-  bus::Participant& participant_;
   ClockCore& core_;
   bus::Reader<Up> up_;
   bus::Writer<Control> control_;
@@ -114,7 +113,7 @@ Expected<ClockSettings> settings_of(const process::MemberOptions& options, scena
     const auto log = scenario::load_directives(options.value("--replay-directives"));
     if (!log) return log.error();
     settings.replay = log.value().sets;
-    if (log.value().stop) settings.end = std::min(settings.end, *log.value().stop);
+    settings.stop_at = log.value().stop;
   }
   settings.check_change = [&scenario](const std::string& set) { return scenario::change(scenario, set); };
   return settings;
