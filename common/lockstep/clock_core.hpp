@@ -108,6 +108,13 @@ class ClockCore {
   std::map<Incarnation, Member> members_;
   std::vector<RsuLife> rsus_;
   std::vector<Control> outbox_;
+  /// The last request of each operator, answered.
+  struct Answer {
+    std::uint64_t number = 0;
+    bool ok = true;
+    std::string text;
+  };
+  std::map<Incarnation, Answer> answers_;
   std::uint64_t sequence_ = 0;
   std::uint32_t roster_version_ = 0;
   std::uint32_t clock_sees_ = 0;

@@ -46,7 +46,7 @@ TEST(Operator, IsToldWhyARequestIsRefused) {
   const std::string run = fresh_run_id();
   Program launcher({"run", "paper", "--duration", "7200", "--wait", "--quiet", "--run-id", run, "--out", folder / "r"});
   Finished answer;
-  for (int i = 0; i < 100 && answer.err.find("may change") == std::string::npos; ++i) {
+  for (int i = 0; i < 100 && answer.err.find("these can") == std::string::npos; ++i) {
     answer = lukou({"ctl", run, "set", "vehicles.length_m=3"});
   }
   EXPECT_EQ(answer.code, 2);
