@@ -77,7 +77,8 @@ TEST(Operator, InterruptsWithControlCAndTheResultsAreKeptAndMarked) {
 TEST(Operator, SeesThePictureWhileTheRunIsPaused) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
-  Program launcher({"run", "paper", "--duration", "7200", "--quiet", "--run-id", run, "--out", folder / "r"});
+  Program launcher(
+      {"run", "paper", "--duration", "7200", "--pace", "50", "--quiet", "--run-id", run, "--out", folder / "r"});
   ASSERT_TRUE(wait_for_step(run, 500));
   ASSERT_EQ(lukou({"ctl", run, "pause"}).code, 0);
   std::string seen;
