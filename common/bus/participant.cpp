@@ -234,6 +234,11 @@ bool Writer<Batch>::write(const Batch& batch, std::uint32_t epoch) {
 }
 
 template <class Batch>
+void Writer<Batch>::finish(double limit_s) const {
+  dds_wait_for_acks(entity_, static_cast<dds_duration_t>(limit_s * 1e9));
+}
+
+template <class Batch>
 std::set<Incarnation> Writer<Batch>::matched() const {
   return matched_with(entity_, dds_get_matched_subscriptions, dds_get_matched_subscription_data);
 }

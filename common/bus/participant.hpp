@@ -60,6 +60,9 @@ class Writer {
   explicit Writer(Participant& participant);
   /// `epoch`: of the writing process, for lockstep topics. Returns false only if the write was given up.
   bool write(const Batch& batch, std::uint32_t epoch = 1);
+  /// Waits until everybody who is matched has received everything, at most `limit_s`: before a process ends, since what
+  /// is still under way is lost with it.
+  void finish(double limit_s) const;
   /// Incarnations of the processes whose readers this writer reaches.
   [[nodiscard]] std::set<Incarnation> matched() const;
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kStateEvery_s = 0.1;
 constexpr double kGoodbye_s = 2.0;
+constexpr double kLastWords_s = 0.5;
 constexpr double kPacedTick_s = 0.02;
 constexpr double kIdleTick_s = 0.1;
 
@@ -50,6 +51,12 @@ class ClockOnTheBus {
       told_ = now;
       told_s_ = now_s;
     }
+  }
+
+  /// The last answers and the end of the run may still be under way to operators who came a moment ago.
+  void finish() const {
+    control_.finish(kLastWords_s);
+    state_.finish(kLastWords_s);
   }
 
  private:
@@ -170,6 +177,7 @@ int run(int argc, char** argv) {
     if (core.outcome() && over_s == 0.0) over_s = process::wall_s();
     if (process::stop_signal() != 0 && (watchdog || over_s != 0.0)) return process::kExitTerminated;
   }
+  clock.finish();
   if (!core.outcome()->text.empty()) process::log_error(core.outcome()->culprit + " " + core.outcome()->text);
   return exit_code(*core.outcome());
 }
