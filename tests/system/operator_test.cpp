@@ -7,6 +7,14 @@
 namespace lukou::test {
 namespace {
 
+/// Exit code of a request; what it said stands in the test's output if it was refused.
+int ask(const std::string& run, std::vector<std::string> request) {
+  request.insert(request.begin(), {"ctl", run});
+  const Finished answer = lukou(request);
+  if (answer.code != 0) std::fprintf(stderr, "ctl: %s%s", answer.out.c_str(), answer.err.c_str());
+  return answer.code;
+}
+
 std::string status(const std::string& run) { return lukou({"ctl", run, "status"}).out; }
 
 TEST(Operator, SessionOfChangesReplaysByteForByte) {
@@ -15,14 +23,14 @@ TEST(Operator, SessionOfChangesReplaysByteForByte) {
   Program launcher(
       {"run", "paper", "--duration", "300", "--pace", "50", "--quiet", "--run-id", run, "--out", folder / "r"});
   ASSERT_TRUE(wait_for_step(run, 200));
-  EXPECT_EQ(lukou({"ctl", run, "set", "traffic.west.flow_veh_per_h=600"}).code, 0);
-  EXPECT_EQ(lukou({"ctl", run, "pause"}).code, 0);
+  EXPECT_EQ(ask(run, {"set", "traffic.west.flow_veh_per_h=600"}), 0);
+  EXPECT_EQ(ask(run, {"pause"}), 0);
   EXPECT_NE(status(run).find(": paused,"), std::string::npos) << status(run);
-  EXPECT_EQ(lukou({"ctl", run, "set", "vehicles.equipped_ratio=0.2"}).code, 0);
-  EXPECT_EQ(lukou({"ctl", run, "step", "7"}).code, 0);
-  EXPECT_EQ(lukou({"ctl", run, "set", "signals.preset=PAPER_YELLOW"}).code, 0);
-  EXPECT_EQ(lukou({"ctl", run, "pace", "max"}).code, 0);
-  EXPECT_EQ(lukou({"ctl", run, "resume"}).code, 0);
+  EXPECT_EQ(ask(run, {"set", "vehicles.equipped_ratio=0.2"}), 0);
+  EXPECT_EQ(ask(run, {"step", "7"}), 0);
+  EXPECT_EQ(ask(run, {"set", "signals.preset=PAPER_YELLOW"}), 0);
+  EXPECT_EQ(ask(run, {"pace", "max"}), 0);
+  EXPECT_EQ(ask(run, {"resume"}), 0);
   EXPECT_EQ(launcher.wait(), 0) << launcher.err();
   const std::string directives = content(folder / "r/directives.textproto");
   EXPECT_NE(directives.find("traffic.west.flow_veh_per_h=600"), std::string::npos) << directives;
@@ -56,7 +64,7 @@ TEST(Operator, IsToldWhyARequestIsRefused) {
   EXPECT_NE(typo.err.find("did you mean `flow_veh_per_h`"), std::string::npos) << typo.err;
   EXPECT_EQ(lukou({"ctl", run, "dance"}).code, 2);
   EXPECT_EQ(lukou({"ctl", "no-such-run", "pause"}).code, 2);
-  EXPECT_EQ(lukou({"ctl", run, "stop"}).code, 0);
+  EXPECT_EQ(ask(run, {"stop"}), 0);
   EXPECT_EQ(launcher.wait(20.0), 0) << launcher.err();
 }
 
@@ -80,12 +88,12 @@ TEST(Operator, SeesThePictureWhileTheRunIsPaused) {
   Program launcher(
       {"run", "paper", "--duration", "7200", "--pace", "50", "--quiet", "--run-id", run, "--out", folder / "r"});
   ASSERT_TRUE(wait_for_step(run, 500));
-  ASSERT_EQ(lukou({"ctl", run, "pause"}).code, 0);
+  ASSERT_EQ(ask(run, {"pause"}), 0);
   std::string seen;
   for (int i = 0; i < 10 && seen.find("cars on the road") == std::string::npos; ++i) seen = status(run);
   EXPECT_NE(seen.find(": paused, "), std::string::npos) << seen;
   EXPECT_NE(seen.find("cars on the road"), std::string::npos) << seen;
-  EXPECT_EQ(lukou({"ctl", run, "stop"}).code, 0);
+  EXPECT_EQ(ask(run, {"stop"}), 0);
   EXPECT_EQ(launcher.wait(20.0), 0) << launcher.err();
 
   // A stopped session replays as one, in both modes.
@@ -102,7 +110,7 @@ TEST(Operator, StopsAtAnAnnouncedTime) {
   const std::string run = fresh_run_id();
   Program launcher({"run", "paper", "--duration", "7200", "--wait", "--quiet", "--run-id", run, "--out", folder / "r"});
   for (int i = 0; i < 100 && status(run).find(": paused") == std::string::npos; ++i) continue;
-  EXPECT_EQ(lukou({"ctl", run, "stop", "at", "60"}).code, 0);
+  EXPECT_EQ(ask(run, {"stop", "at", "60"}), 0);
   EXPECT_EQ(launcher.wait(30.0), 0) << launcher.err();
   const std::string inspection = lukou({"inspect", folder / "r"}).out;
   EXPECT_NE(inspection.find("complete to step 600 (60.0 s) of 72000, ended by stopped"), std::string::npos)
