@@ -30,16 +30,26 @@ struct RunArguments {
   bool quiet = false;
 };
 
+/// A session can be replayed if its changes fit the scenario and the mode can reproduce its losses.
+Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved scenario) {
+  const auto log = scenario::load_directives(arguments.replay);
+  if (!log) return log.error();
+  if (!log.value().hearings.empty() && arguments.mode != "in-process") {
+    return Error{arguments.replay, "an RSU was lost in this session; only --mode in-process replays that"};
+  }
+  for (const Directive& directive : log.value().sets) {
+    const auto changed = scenario::change(scenario, directive.set);
+    if (!changed) return Error{arguments.replay + ": step " + std::to_string(directive.step), changed.error().text()};
+  }
+  return Done{};
+}
+
 int run(const RunArguments& arguments) {
   auto scenario = load(arguments.scenario);
   if (!scenario) return report_errors(scenario.error());
   if (const auto pace = pace_of(arguments.pace); !pace) return report_errors(pace.error());
   if (!arguments.replay.empty()) {
-    const auto log = scenario::load_directives(arguments.replay);
-    if (!log) return report_errors(log.error());
-    if (!log.value().hearings.empty() && arguments.mode != "in-process") {
-      return report_errors({arguments.replay, "an RSU was lost in this session; only --mode in-process replays that"});
-    }
+    if (auto fits = check_replay(arguments, scenario.value()); !fits) return report_errors(fits.error());
   }
   if (!arguments.quiet)
     for (const std::string& warning : scenario::warnings(scenario.value())) process::log_warning(warning);

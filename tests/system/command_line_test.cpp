@@ -57,6 +57,17 @@ TEST(CommandLine, LeavesAFolderAloneThatHoldsSomething) {
   EXPECT_FALSE(std::filesystem::exists(folder / "r/car.csv"));
 }
 
+TEST(CommandLine, RefusesASessionThatDoesNotFitTheScenario) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "directives.textproto";
+  std::ofstream(file) << "changes { step: 10 set: \"traffic.west.flow_veh_per_h=-5\" }\n";
+  const Finished run =
+      lukou({"run", "paper", "--duration", "10", "--quiet", "--replay-directives", file, "--out", folder / "r"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("step 10"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "r"));
+}
+
 TEST(CommandLine, PrintsOneJsonObject) {
   const TemporaryFolder folder;
   const Finished run =

@@ -198,6 +198,38 @@ TEST(ClockRequests, AreRefusedWhenTheRunEnds) {
   EXPECT_EQ(rig.ask("set good.flow=1"), "refused: set: the run is ending");
 }
 
+TEST(ClockRequests, AreExecutedOnceThoughTheyAreRepeatedUntilTheAnswerArrives) {
+  ClockRig rig = running();
+  static_cast<void>(rig.ask("pause"));
+  const auto step_ten = [&](Incarnation from, std::uint64_t number) {
+    rig.up({.kind = Up::Kind::kRequest, .incarnation = from, .number = number, .text = "step 10"});
+    return rig.the(Control::Kind::kReply);
+  };
+  rig.all_did(300);
+  EXPECT_EQ(step_ten(kOperator, 1).text, "pauses at step 310 (31.0 s)");
+  const Control again = step_ten(kOperator, 1);
+  EXPECT_EQ(again.text, "pauses at step 310 (31.0 s)");
+  EXPECT_TRUE(again.ok);
+  EXPECT_EQ(again.to, kOperator);
+  EXPECT_EQ(rig.granted(), 310);
+  EXPECT_EQ(step_ten(kOperator, 2).text, "pauses at step 320 (32.0 s)") << "the next request";
+  EXPECT_EQ(step_ten(kOperator + 1, 1).text, "pauses at step 330 (33.0 s)") << "somebody else's first";
+}
+
+TEST(ClockRequests, OfAReplayedRunEndItWhereItsOperatorDid) {
+  auto settings = ClockRig::usual();
+  settings.stop_at = 120;
+  ClockRig rig(settings);
+  rig.form();
+  const Control last = rig.the(Control::Kind::kGrant);
+  EXPECT_EQ(last.through, 120);
+  EXPECT_TRUE(last.last);
+  EXPECT_EQ(last.text, "stopped");
+  rig.close("", 120);
+  ASSERT_TRUE(rig.core.outcome().has_value());
+  EXPECT_EQ(rig.core.outcome()->kind, RunOutcome::Kind::kStopped);
+}
+
 TEST(ClockRequests, MayComeBeforeTheStart) {
   ClockRig rig;
   EXPECT_EQ(rig.ask("pause at 20"), "pauses at step 200 (20.0 s)");
