@@ -39,8 +39,8 @@ TEST(Protocol, IsTheScenariosInSteps) {
 TEST(ApplyDirectives, ChangesTheScenarioInTheirOrder) {
   Resolved scenario = loaded("");
   EXPECT_FALSE(lukou::scenario::apply(scenario, std::vector<Directive>{}));
-  EXPECT_TRUE(
-      apply(scenario, std::vector<Directive>{{1, "vehicles.equipped_ratio=0.1"}, {1, "vehicles.equipped_ratio=0.4"}}));
+  EXPECT_TRUE(lukou::scenario::apply(
+      scenario, std::vector<Directive>{{1, "vehicles.equipped_ratio=0.1"}, {1, "vehicles.equipped_ratio=0.4"}}));
   EXPECT_EQ(text(scenario), text(loaded("vehicles { equipped_ratio: 0.4 }")));
 }
 
