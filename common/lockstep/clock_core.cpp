@@ -11,6 +11,10 @@ ClockCore::ClockCore(ClockSettings settings)
       directives_(settings_.replay),
       pace_(settings_.pace) {
   if (settings_.start_paused) hold_at_ = 0;
+  if (settings_.stop_at && *settings_.stop_at < end_) {
+    end_ = *settings_.stop_at;
+    stopped_ = "stopped";
+  }
 }
 
 Control& ClockCore::send(Control::Kind kind, Incarnation to) {
@@ -219,6 +223,7 @@ void ClockCore::grant(double now_s) {
 }
 
 void ClockCore::gone(double now_s, Incarnation incarnation) {
+  answers_.erase(incarnation);
   // Under a debugger a process stands still for minutes: only the launcher's word counts then.
   if (members_.contains(incarnation) && settings_.watchdog) {
     lost(now_s, incarnation, RunOutcome::Kind::kLost, "is gone: its process ended or does not run any more");

@@ -31,6 +31,7 @@ struct ClockSettings {
   double forming_limit_s = 30;    ///< wall time in which everybody must have joined
   double stall_limit_s = 30;      ///< wall time without any progress
   std::vector<Directive> replay;  ///< directives of an earlier run
+  std::optional<Step> stop_at;    ///< and the step at which its operator ended it
   /// Checks a live change against the schema and takes it over into the clock's own copy.
   std::function<Expected<Done>(const std::string& set)> check_change;
 };
@@ -107,6 +108,13 @@ class ClockCore {
   std::map<Incarnation, Member> members_;
   std::vector<RsuLife> rsus_;
   std::vector<Control> outbox_;
+  /// The last request of each operator, answered.
+  struct Answer {
+    std::uint64_t number = 0;
+    bool ok = true;
+    std::string text;
+  };
+  std::map<Incarnation, Answer> answers_;
   std::uint64_t sequence_ = 0;
   std::uint32_t roster_version_ = 0;
   std::uint32_t clock_sees_ = 0;

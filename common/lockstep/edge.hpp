@@ -47,7 +47,7 @@ class Edge {
       early_.emplace_back(epoch, std::move(batch));         // overtook the grant that attaches it
       return Done{};
     }
-    if (interval->cut != kNever) return Done{};
+    if (interval->cut != kNever || interval->from == kNever) return Done{};  // fenced, or before it took part
     const Step due = interval->next < 0 ? round_up(interval->from) : interval->next;
     if (interval->next < 0 && batch.step < due) return Done{};  // from before the consumer took part
     if (batch.step != due) {

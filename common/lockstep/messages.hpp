@@ -57,7 +57,7 @@ struct Up {
     kProgress = 3,  ///< step = last one executed; text = whom it waits for ("" = nobody)
     kCredit = 4,    ///< recorder: step = last one committed
     kReceipt = 5,   ///< number = RSU, step = first step not heard of it
-    kRequest = 6,   ///< operator: text = verb and argument
+    kRequest = 6,   ///< operator: text = verb and argument; number = its requests so far, repeated until answered
     kClosed = 7,    ///< recorder: the record is safe; step = complete to; text = anomaly, "" if none
     kLeave = 8,
     kLost = 9,  ///< launcher: the child with this role has ended; text = how

@@ -1,4 +1,4 @@
-#include <cmath>
+#include <vector>
 
 #include "common/bus/participant.hpp"
 #include "common/lockstep/clock_core.hpp"
@@ -20,16 +20,20 @@ constexpr double kIdleTick_s = 0.1;
 class ClockOnTheBus {
  public:
   ClockOnTheBus(bus::Participant& participant, ClockCore& core)
-      : participant_(participant), core_(core), up_(participant), control_(participant), state_(participant) {}
+      : core_(core), up_(participant), control_(participant), state_(participant) {}
 
   void receive() {
     up_.take([this](Up& message, const bus::SampleInfo& info) {
-      if (info.alive) {
+      if (info.alive && message.kind == Up::Kind::kRequest) {
+        requests_.push_back(message);
+      } else if (info.alive) {
         core_.receive(process::wall_s(), message);
       } else {
+        std::erase_if(requests_, [&](const Up& request) { return request.incarnation == info.producer; });
         core_.gone(process::wall_s(), info.producer);
       }
     });
+    execute_requests();
     if (core_.roster_version() > seen_ && sees_all()) {
       seen_ = core_.roster_version();
       core_.sees(process::wall_s(), seen_);
@@ -49,6 +53,18 @@ class ClockOnTheBus {
   }
 
  private:
+  /// In their order, as soon as the answer can reach whoever asked: an operator is heard before its reader is matched,
+  /// and a run that ends at its request could not answer a second time.
+  void execute_requests() {
+    if (requests_.empty()) return;
+    const auto reached = control_.matched();
+    std::erase_if(requests_, [&](const Up& request) {
+      if (!reached.contains(request.incarnation)) return false;
+      core_.receive(process::wall_s(), request);
+      return true;
+    });
+  }
+
   [[nodiscard]] bool sees_all() const {
     const auto heard = up_.matched();
     const auto reached = control_.matched();
@@ -57,11 +73,11 @@ class ClockOnTheBus {
     return true;
   }
 
-  bus::Participant& participant_;
   ClockCore& core_;
   bus::Reader<Up> up_;
   bus::Writer<Control> control_;
   bus::Writer<RunState> state_;
+  std::vector<Up> requests_;  ///< not executed yet
   std::uint32_t seen_ = 0;
   RunState told_;
   double told_s_ = -1.0;
@@ -114,7 +130,7 @@ Expected<ClockSettings> settings_of(const process::MemberOptions& options, scena
     const auto log = scenario::load_directives(options.value("--replay-directives"));
     if (!log) return log.error();
     settings.replay = log.value().sets;
-    if (log.value().stop) settings.end = std::min(settings.end, *log.value().stop);
+    settings.stop_at = log.value().stop;
   }
   settings.check_change = [&scenario](const std::string& set) { return scenario::change(scenario, set); };
   return settings;

@@ -5,6 +5,7 @@
 #include "common/lockstep/clock_core.hpp"
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
+#include "common/scenario/directive_log.hpp"
 #include "services/lukou/launch/run_request.hpp"
 #include "services/lukou/report/progress.hpp"
 #include "services/lukou/report/summary_text.hpp"
@@ -33,8 +34,12 @@ int run(const RunArguments& arguments) {
   auto scenario = load(arguments.scenario);
   if (!scenario) return report_errors(scenario.error());
   if (const auto pace = pace_of(arguments.pace); !pace) return report_errors(pace.error());
-  if (!arguments.replay.empty() && !std::filesystem::exists(arguments.replay)) {
-    return report_errors({"--replay-directives", "there is no file " + arguments.replay});
+  if (!arguments.replay.empty()) {
+    const auto log = scenario::load_directives(arguments.replay);
+    if (!log) return report_errors(log.error());
+    if (!log.value().hearings.empty() && arguments.mode != "in-process") {
+      return report_errors({arguments.replay, "an RSU was lost in this session; only --mode in-process replays that"});
+    }
   }
   if (!arguments.quiet)
     for (const std::string& warning : scenario::warnings(scenario.value())) process::log_warning(warning);

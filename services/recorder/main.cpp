@@ -40,7 +40,6 @@ class Recorder {
   void hear(SignalBatch& batch, std::uint32_t epoch) { check(signal_.accept(epoch, batch)); }
 
   [[nodiscard]] std::string waiting_for(Step k) {
-    show(kIdleView_s);
     if (closed_) return "clock";
     if (!traffic_.ready(k)) return std::string(kEngineRole);
     return signal_.ready(k) ? std::string() : std::string(kControllerRole);
@@ -59,6 +58,15 @@ class Recorder {
     credited_s_ = now_s;
     if (auto done = node_.flush(); !done) return fail(done.error());
     member_.send({.kind = Up::Kind::kCredit, .step = k});
+  }
+
+  /// Publishes the picture, unless the last one is younger.
+  void show(double every_s) {
+    const double now_s = process::wall_s();
+    if (now_s - shown_s_ < every_s || node_.complete_to() < 0) return;
+    shown_s_ = now_s;
+    node_.fill(view_);
+    views_.write(view_);
   }
 
   /// The grant of the last step may say so after the step was committed.
@@ -87,14 +95,6 @@ class Recorder {
     closed_ = true;
     show(0.0);
     member_.send({.kind = Up::Kind::kClosed, .step = node_.complete_to(), .text = text});
-  }
-
-  void show(double every_s) {
-    const double now_s = process::wall_s();
-    if (now_s - shown_s_ < every_s || node_.complete_to() < 0) return;
-    shown_s_ = now_s;
-    node_.fill(view_);
-    views_.write(view_);
   }
 
   /// The disk: what is written stays, the manifest says how far, as far as it can still be written.
@@ -156,6 +156,7 @@ int run(int argc, char** argv) {
           if (info.alive) recorder.hear(batch, info.epoch);
         });
         recorder.close_if_last(next);
+        recorder.show(kIdleView_s);
       },
       [&](Step k) { return recorder.waiting_for(k); },
       [&](Step k) {

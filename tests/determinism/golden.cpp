@@ -3,39 +3,45 @@
 #include "common/results/inspection.hpp"
 
 namespace lukou::test {
+namespace {
+
+std::vector<std::string> paper_with(const std::vector<std::string>& settings) {
+  std::vector<std::string> arguments = {"run", "paper", "--mode", "in-process", "--duration", "600", "--quiet"};
+  for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+  return arguments;
+}
+
+}  // namespace
 
 // These hashes are the project's word that the same scenario gives the same bytes on every machine. They change only in
 // a commit whose message says why the results change; a failing test is no reason to paste new ones.
 const std::vector<GoldenRun>& golden_runs() {
   static const std::vector<GoldenRun> kRuns = {
       {.name = "the paper's scenario",
-       .arguments = {"run", "paper", "--mode", "in-process", "--duration", "600", "--seed", "1", "--quiet"},
-       .golden = R"(@A@)"},
+       .arguments = paper_with({"run.seed=1", "run.warmup_s=100"}),
+       .golden = R"(car.csv 4a0b113e6c2a159170e5eb1d4bd4c8912be30682d2b463080ace0ed16f8182c3
+directives.textproto e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855
+road.csv c0b806129d049d97227714a011c7b4bbd17eabfb6b1600a494074f30419929ae
+scenario.textproto 3d6c46ff24451690e9d86ee3dd8347b9eb69d87a6f6137d83505b4e9129ebfb1
+stop.csv 7294999083b2b67081e2f6970e2aeda8fe33878f4426dae7838e52b017cf05e4
+stop_time.csv 82e4e18ceb748921c529b8d3a865f3876a6c8f90ce74bbdc65183f04f5073f06
+summary.json a6d77b4382dd5e2499c4fe3996cbe5da38cef7cd3a3cac05a7e7a4a3a09f8a3c
+)"},
       {.name = "protected left turns under changing demand",
-       .arguments =
-           {"run",
-            "paper",
-            "--mode",
-            "in-process",
-            "--duration",
-            "600",
-            "--seed",
-            "20260",
-            "--quiet",
-            "--set",
-            "signals.preset=PROTECTED_LEFT",
-            "--set",
-            "vehicles.equipped_ratio=0.3",
-            "--set",
-            "traffic.west={flow_series {from_s: 0 flow_veh_per_h: 400} flow_series {from_s: 200 "
-            "flow_veh_per_h: 1300} flow_series {from_s: 450 flow_veh_per_h: 0}}",
-            "--set",
-            "traffic.south.flow_veh_per_h=900",
-            "--set",
-            "traffic.east.flow_veh_per_h=600",
-            "--set",
-            "traffic.north={flow_series {from_s: 60 flow_veh_per_h: 1000} shares {left: 3 center: 2 right: 1}}"},
-       .golden = R"(@B@)"}};
+       .arguments = paper_with(
+           {"run.seed=20260", "run.warmup_s=100", "signals.preset=PROTECTED_LEFT", "vehicles.equipped_ratio=0.3",
+            "traffic.west={flow_series {from_s: 0 flow_veh_per_h: 400} flow_series {from_s: 200 flow_veh_per_h: 1300} "
+            "flow_series {from_s: 450 flow_veh_per_h: 0}}",
+            "traffic.south.flow_veh_per_h=900", "traffic.east.flow_veh_per_h=600",
+            "traffic.north={flow_series {from_s: 60 flow_veh_per_h: 1000} shares {left: 3 center: 2 right: 1}}"}),
+       .golden = R"(car.csv 3202f87d3967bfc0c841b8f3ef05078a8a36c82f9d688e119a4233eaa08730d3
+directives.textproto e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855
+road.csv 09276241b273bf621c8d9808c73ffafb8320ba43febc423aaa4408e72bb18745
+scenario.textproto aa03c9265c67d88626852c4ac933b9af24faaecbce18e6c90a7bc574cd176d62
+stop.csv 78df05efbf88e514960c204a9b716095e7739bdb21609578ced4f28ef26744d7
+stop_time.csv 24995a45268ca401a2251baa3b4e1ab902d6cd7f08a4a2e8bca74e0e4ff356f5
+summary.json 67c2c51fce3b7998e3819388e5eceb12eff8bc5029a8eb345f609b5d1ce1e147
+)"}};
   return kRuns;
 }
 

@@ -104,6 +104,11 @@ TEST(Loss, OfAnRsuIsSurvivedWhereTheScenarioSaysSoAndTheRecordReplaysIt) {
                                  "--replay-directives", folder / "r/directives.textproto", "--out", folder / "again"});
   ASSERT_EQ(replay.code, 0) << replay.err;
   EXPECT_EQ(differing_files(folder / "r", folder / "again"), std::vector<std::string>{});
+  // Only one process can take back a loss; several say so instead of giving other bytes.
+  EXPECT_EQ(lukou({"run", folder / "r/scenario.textproto", "--quiet", "--replay-directives",
+                   folder / "r/directives.textproto", "--out", folder / "refused"})
+                .code,
+            2);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(Operator, IsToldWhyARequestIsRefused) {
   const std::string run = fresh_run_id();
   Program launcher({"run", "paper", "--duration", "7200", "--wait", "--quiet", "--run-id", run, "--out", folder / "r"});
   Finished answer;
-  for (int i = 0; i < 100 && answer.err.find("may change") == std::string::npos; ++i) {
+  for (int i = 0; i < 100 && answer.err.find("these can") == std::string::npos; ++i) {
     answer = lukou({"ctl", run, "set", "vehicles.length_m=3"});
   }
   EXPECT_EQ(answer.code, 2);
@@ -72,6 +72,29 @@ TEST(Operator, InterruptsWithControlCAndTheResultsAreKeptAndMarked) {
   const Finished inspection = lukou({"inspect", folder / "r"});
   EXPECT_EQ(inspection.code, 0) << inspection.out;
   EXPECT_NE(inspection.out.find("ended by interrupted"), std::string::npos) << inspection.out;
+}
+
+TEST(Operator, SeesThePictureWhileTheRunIsPaused) {
+  const TemporaryFolder folder;
+  const std::string run = fresh_run_id();
+  Program launcher(
+      {"run", "paper", "--duration", "7200", "--pace", "50", "--quiet", "--run-id", run, "--out", folder / "r"});
+  ASSERT_TRUE(wait_for_step(run, 500));
+  ASSERT_EQ(lukou({"ctl", run, "pause"}).code, 0);
+  std::string seen;
+  for (int i = 0; i < 10 && seen.find("cars on the road") == std::string::npos; ++i) seen = status(run);
+  EXPECT_NE(seen.find(": paused, "), std::string::npos) << seen;
+  EXPECT_NE(seen.find("cars on the road"), std::string::npos) << seen;
+  EXPECT_EQ(lukou({"ctl", run, "stop"}).code, 0);
+  EXPECT_EQ(launcher.wait(20.0), 0) << launcher.err();
+
+  // A stopped session replays as one, in both modes.
+  for (const std::string mode : {"in-process", "processes"}) {
+    const Finished replay = lukou({"run", folder / "r/scenario.textproto", "--mode", mode, "--quiet",
+                                   "--replay-directives", folder / "r/directives.textproto", "--out", folder / mode});
+    ASSERT_EQ(replay.code, 0) << replay.err;
+    EXPECT_EQ(differing_files(folder / "r", folder / mode), std::vector<std::string>{}) << mode;
+  }
 }
 
 TEST(Operator, StopsAtAnAnnouncedTime) {

@@ -5,6 +5,11 @@
 #include "common/process/environment.hpp"
 
 namespace lukou::control {
+namespace {
+
+constexpr double kAskAgain_s = 0.2;
+
+}  // namespace
 
 Expected<std::unique_ptr<RunClient>> RunClient::attach(const bus::Address& address, bool with_view) {
   auto participant = bus::Participant::join(address, process::new_incarnation());
@@ -21,8 +26,15 @@ RunClient::RunClient(std::unique_ptr<bus::Participant> participant, bool with_vi
 void RunClient::poll(double timeout_s) {
   participant_->wait(timeout_s);
   control_.take([this](Control& control, const bus::SampleInfo& info) {
-    if (info.alive && control.kind == Control::Kind::kReply && control.to == participant_->self()) reply_ = control;
+    if (!info.alive || control.kind != Control::Kind::kReply || control.to != participant_->self()) return;
+    reply_ = control;
+    request_.reset();
   });
+  // Discovery goes both ways: what was said or answered before the other side had matched is lost.
+  if (request_ && process::wall_s() - asked_s_ > kAskAgain_s) {
+    asked_s_ = process::wall_s();
+    up_.write(*request_);
+  }
   states_.take([this](RunState& state, const bus::SampleInfo& info) {
     if (info.alive) state_ = state;
   });
@@ -37,7 +49,9 @@ void RunClient::poll(double timeout_s) {
 bool RunClient::connected() const { return !up_.matched().empty() && !control_.matched().empty(); }
 
 void RunClient::ask(const std::string& request) {
-  up_.write({.kind = Up::Kind::kRequest, .role = std::string(kObserverRole), .text = request});
+  request_ = Up{.kind = Up::Kind::kRequest, .role = std::string(kObserverRole), .number = ++requests_, .text = request};
+  asked_s_ = process::wall_s();
+  up_.write(*request_);
 }
 
 Expected<std::string> RunClient::request(const std::string& request, double limit_s) {

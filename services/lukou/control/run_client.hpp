@@ -22,7 +22,7 @@ class RunClient {
   /// True once the clock hears this client and is heard by it.
   [[nodiscard]] bool connected() const;
 
-  /// Asks the clock ("pause", "set PATH=VALUE", ...) without waiting for the answer.
+  /// Asks the clock ("pause", "set PATH=VALUE", ...) without waiting for the answer; poll() asks again until it comes.
   void ask(const std::string& request);
   /// Asks and waits. Errors: the clock's refusal, or no answer within `limit_s`.
   Expected<std::string> request(const std::string& request, double limit_s);
@@ -39,6 +39,9 @@ class RunClient {
   std::optional<bus::Reader<View>> views_;
   std::optional<RunState> state_;
   std::optional<View> view_;
+  std::optional<Up> request_;  ///< not answered yet
+  double asked_s_ = 0.0;
+  std::uint64_t requests_ = 0;
   std::optional<Control> reply_;
 };
 

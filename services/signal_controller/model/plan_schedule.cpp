@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 namespace lukou {
@@ -9,8 +10,8 @@ namespace lukou {
 PlanSchedule::PlanSchedule(SignalPlan first) { plans_.push_back({std::numeric_limits<Step>::min(), std::move(first)}); }
 
 const PlanSchedule::Running& PlanSchedule::running_at(Step step) const {
-  for (auto it = plans_.rbegin(); it != plans_.rend(); ++it)
-    if (it->from <= step) return *it;
+  for (const Running& running : plans_ | std::views::reverse)
+    if (running.from <= step) return running;
   return plans_.front();
 }
 

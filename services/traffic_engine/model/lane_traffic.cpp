@@ -31,8 +31,6 @@ constexpr double kCrawling_mps = 1.0;
 
 /// Differences of acceleration [m/s2] below this are rounding.
 constexpr double kRounding_mps2 = 1e-9;
-/// A guard that takes less speed [m/s] than this has not intervened.
-constexpr double kIntervention_mps = 1e-9;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -163,7 +161,7 @@ bool LaneTraffic::leaves_block(const Car& car, double block_mps) const {
 
 double LaneTraffic::move_in_block(Car& car, const View& view, double block_mps, bool front, LaneEvents& events) {
   const double next_mps = front ? guarded_mps(car, view, block_mps) : block_mps;
-  const bool guarded = block_mps - next_mps > kIntervention_mps;
+  const bool guarded = next_mps < block_mps;
   if (guarded) ++events.guard_interventions;
   Motion& motion = car.motion;
   car.noise_mps2 = 0.0;
@@ -201,15 +199,14 @@ void LaneTraffic::move_freely(Car& car, std::size_t place, const View& view, Lan
       std::clamp(motion.speed_mps + std::clamp(unlimited_mps2, -limit_mps2, limit_mps2) * kStep_s, 0.0,
                  parameters_.vehicles.speed_limit_mps);
   const double next_mps = guarded_mps(car, view, limited_mps);
-  const bool guarded = limited_mps - next_mps > kIntervention_mps;
+  const bool guarded = next_mps < limited_mps;
   if (guarded) ++events.guard_interventions;
 
   if (car.unit.in_force()) {
     AdviceOutcome outcome = want.outcome;
-    const double cut_mps = motion.speed_mps + unlimited_mps2 * kStep_s - limited_mps;
-    if (outcome == AdviceOutcome::kApplied && std::abs(cut_mps) > kRounding_mps2 * kStep_s) {
-      outcome = AdviceOutcome::kChangedLimit;
-    }
+    // Exact: the same product and sum unless a limit has cut it.
+    const bool limited = motion.speed_mps + unlimited_mps2 * kStep_s != limited_mps;
+    if (outcome == AdviceOutcome::kApplied && limited) outcome = AdviceOutcome::kChangedLimit;
     if (outcome == AdviceOutcome::kApplied && guarded) outcome = AdviceOutcome::kChangedGuard;
     car.unit.used(outcome, car.vehicle, events.outcomes);
   }

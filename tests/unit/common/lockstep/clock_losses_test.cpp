@@ -33,6 +33,7 @@ TEST(ClockLosses, OfAMemberThatIsGoneAbortTheRunAndNameIt) {
     rig.credit(80);
     static_cast<void>(rig.heard());
     rig.core.gone(rig.now_s, role.incarnation);
+    ASSERT_TRUE(rig.core.outcome().has_value()) << role.name;
     EXPECT_EQ(rig.core.outcome()->complete_to, 80) << "what the recorder committed";
     expect_aborted(rig, role.name);
   }
@@ -44,6 +45,7 @@ TEST(ClockLosses, ThatTheLauncherReportsAbortTheRunWithItsWords) {
     rig.form();
     static_cast<void>(rig.heard());
     rig.up({.kind = Up::Kind::kLost, .incarnation = kOperator, .role = role.name, .text = "was killed by signal 9"});
+    ASSERT_TRUE(rig.core.outcome().has_value()) << role.name;
     EXPECT_EQ(rig.core.outcome()->text, "was killed by signal 9");
     expect_aborted(rig, role.name);
   }
@@ -56,6 +58,7 @@ TEST(ClockLosses, OfAMemberThatLeavesBeforeTheEndAbortTheRun) {
     rig.form();
     static_cast<void>(rig.heard());
     rig.up({.kind = Up::Kind::kLeave, .incarnation = role.incarnation, .step = 17});
+    ASSERT_TRUE(rig.core.outcome().has_value()) << role.name;
     EXPECT_EQ(rig.core.outcome()->text, "left before the end of the run");
     expect_aborted(rig, role.name);
   }

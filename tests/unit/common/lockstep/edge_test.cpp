@@ -179,6 +179,9 @@ TEST(EdgeFence, BeforeTheAttachMakesAnEmptyLife) {
   EXPECT_EQ(offer(edge, 61, 2), "");
   EXPECT_TRUE(edge.ready(61));
   EXPECT_EQ(edge.heard_epoch(61), 0U);
+  Edge<Batch> strided({.delay = 6, .stride = 5, .initial = true});
+  EXPECT_EQ(strided.fence(2), kNever);
+  EXPECT_EQ(offer(strided, 60, 2), "") << "ignored, whatever the stride";
   // The next life is not disturbed by what the empty one sent.
   EXPECT_TRUE(edge.attach(3, 80).ok());
   EXPECT_EQ(offer(edge, 62, 2), "");
