@@ -15,6 +15,7 @@ void TrafficBatch::clear() {
   guard_interventions = 0;
   overflow = 0;
   heard_epoch.clear();
+  reception.clear();
 }
 
 }  // namespace lukou

@@ -6,6 +6,7 @@
 
 #include "common/core/step.hpp"
 #include "common/messages/frames.hpp"
+#include "common/radio/reception_report.hpp"
 
 // What crosses the bus in every step, as plain structures of arrays; idl/bus.idl is the same contract for DDS.
 // One batch per producer, topic and step, empty or not. All arrays of a group have the same length.
@@ -24,9 +25,10 @@ struct RoadsideBatch {
   std::uint32_t epoch = 1;  ///< counts the RSU's starts in this run
   Step step = 0;
   Frames frames;
-  std::uint32_t frames_heard = 0;      ///< reception report: frames of this step's air that the RSU's modem let through
-  std::uint32_t frames_malformed = 0;  ///< heard, but not decodable: dropped
+  std::uint32_t frames_heard = 0;       ///< frames that reached the RSU in this step, duplicates not counted
+  std::uint32_t frames_malformed = 0;   ///< heard, but not decodable: dropped
   std::uint32_t answers_malformed = 0;  ///< the algorithm's advice that no message can carry: refused, not sent
+  ReceptionReport reception;            ///< uplink; empty under the ideal radio
 };
 
 /// Controller to engine and RSUs. The batch of controller step k promises the heads through step k + P.
@@ -55,8 +57,13 @@ enum class AdviceFate : std::uint8_t {
   kUnknownVehicle = 8,    ///< refused: nobody on the road has this temporary id
   kMalformed = 9,         ///< refused: undecodable, not a number, or out of the standard's range
   kOutOfLimit = 10,       ///< refused: beyond the limits of acceleration of every car, +-a_max
+  kLostRandom = 11,       ///< its frame did not reach the car: lost by itself
+  kLostBurst = 12,        ///< ... lost in a burst
+  kLostRange = 13,        ///< ... the car was out of range
+  kStale = 14,            ///< dropped: a word issued later had reached the car before
+  kDuplicate = 15,        ///< dropped: the same frame had reached the car before
 };
-inline constexpr std::size_t kAdviceFates = 11;
+inline constexpr std::size_t kAdviceFates = 16;
 
 /// Engine to recorder: the truth at t_step, with what happened in (t_step-1, t_step].
 struct TrafficBatch {
@@ -107,6 +114,7 @@ struct TrafficBatch {
   std::uint32_t guard_interventions = 0;   ///< cars that the guard braked in this step
   std::uint8_t overflow = 0;               ///< 1 = some car has waited outside longer than the scenario allows
   std::vector<std::uint32_t> heard_epoch;  ///< per RSU: the epoch heard in this step, 0 = silent
+  ReceptionReport reception;  ///< of the instant t_(step-1): what cars heard, then what RSUs said they heard
 
   void clear();
 };

@@ -43,6 +43,14 @@ void frames_columns(Plain& plain, Sample& sample, Move move) {
 }
 
 template <class Plain, class Sample, class Move>
+void reception_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.direction, sample.direction), move(plain.kind, sample.kind), move(plain.sent, sample.sent);
+  move(plain.heard, sample.heard), move(plain.lost_random, sample.lost_random);
+  move(plain.lost_burst, sample.lost_burst), move(plain.lost_range, sample.lost_range);
+  move(plain.duplicates, sample.duplicates), move(plain.latency_ms, sample.latency_ms);
+}
+
+template <class Plain, class Sample, class Move>
 void signal_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.heads, sample.heads), move(plain.change_lane, sample.change_lane);
   move(plain.change_aspect, sample.change_aspect), move(plain.change_step, sample.change_step);
@@ -95,6 +103,7 @@ void lend(const RoadsideBatch& batch, lukou_bus_Roadside& sample, Scratch&) {
   sample.frames_malformed = batch.frames_malformed;
   sample.answers_malformed = batch.answers_malformed;
   frames_columns(batch.frames, sample.frames, kLend);
+  reception_columns(batch.reception, sample.reception, kLend);
 }
 
 void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch) {
@@ -105,6 +114,7 @@ void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch) {
   batch.frames_malformed = sample.frames_malformed;
   batch.answers_malformed = sample.answers_malformed;
   frames_columns(batch.frames, sample.frames, kCopy);
+  reception_columns(batch.reception, sample.reception, kCopy);
 }
 
 void lend(const SignalBatch& batch, lukou_bus_Signal& sample, Scratch&) {
@@ -125,6 +135,7 @@ void lend(const TrafficBatch& batch, lukou_bus_Traffic& sample, Scratch&) {
   sample.guard_interventions = batch.guard_interventions;
   sample.overflow = batch.overflow;
   traffic_columns(batch, sample, kLend);
+  reception_columns(batch.reception, sample.reception, kLend);
 }
 
 void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch) {
@@ -133,6 +144,7 @@ void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch) {
   batch.guard_interventions = sample.guard_interventions;
   batch.overflow = sample.overflow;
   traffic_columns(batch, sample, kCopy);
+  reception_columns(batch.reception, sample.reception, kCopy);
 }
 
 void lend(const Control& message, lukou_bus_Control& sample, Scratch& scratch) {

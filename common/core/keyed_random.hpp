@@ -13,7 +13,15 @@ enum class Purpose : std::uint16_t {
   kEquipped = 5,        ///< compared with the equipped ratio
   kActuationNoise = 6,  ///< noise on the acceleration, index = step
   kTemporaryId = 7,     ///< the 8-byte id in the BSM
-  kTest = 100,          ///< tests
+  // The radio; all but the first two have index = the directed link's number and entity = sequence of the frame.
+  kRadioLink = 8,            ///< the number of a link, from the ids of its stations
+  kRadioPhase = 9,           ///< when in a step a station generates its frames, index = its id
+  kRadioLatency = 10,        ///< uniform, or the first exponential of the gamma law
+  kRadioLatencySecond = 11,  ///< the second exponential of the gamma law
+  kRadioLoss = 12,           ///< independent loss
+  kRadioBurst = 13,          ///< transition between the states of a bursty link
+  kRadioDuplicate = 14,      ///< whether a frame is heard twice
+  kTest = 100,               ///< tests
 };
 
 /// A draw is a pure function of its key: neither order nor other draws can change it.

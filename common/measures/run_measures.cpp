@@ -159,8 +159,8 @@ void RunMeasures::add_fates(const TrafficBatch& batch) {
     LUKOU_EXPECT(batch.fate[i] < kAdviceFates);
     if (batch.fate_again[i] != 0) {
       --totals_.advice_by_fate[static_cast<std::size_t>(AdviceFate::kApplied)];
-    } else {
-      ++totals_.advice_sent;
+    } else if (batch.fate[i] != static_cast<std::uint8_t>(AdviceFate::kDuplicate)) {
+      ++totals_.advice_sent;  // a duplicate is no advice of its own
     }
     ++totals_.advice_by_fate[batch.fate[i]];
   }

@@ -73,8 +73,9 @@ struct RunFigures {
   GroupFigures all;
   GroupFigures equipped;
   GroupFigures unequipped;
-  std::uint64_t advice_sent = 0;                             ///< advice whose fate is known
-  std::array<std::uint64_t, kAdviceFates> advice_by_fate{};  ///< by AdviceFate; each advice once, by its last fate
+  std::uint64_t advice_sent = 0;  ///< advice whose fate is known
+  std::array<std::uint64_t, kAdviceFates>
+      advice_by_fate{};  ///< by AdviceFate; each advice once, by its last fate; duplicates on top
   [[nodiscard]] std::uint64_t advice(AdviceFate fate) const { return advice_by_fate[static_cast<std::size_t>(fate)]; }
   std::uint64_t guard_interventions = 0;
   std::uint64_t collisions = 0;     ///< a car came closer to the one ahead than a vehicle's length, head to head

@@ -1,5 +1,7 @@
 #include "common/messages/plane.hpp"
 
+#include <cmath>
+
 #include "common/core/math.hpp"
 
 namespace lukou {
@@ -36,6 +38,12 @@ std::optional<PlanePoint> to_plane(const GeoPoint& point) {
   if (point.longitude_e7 < -1'799'999'999 || point.longitude_e7 > 1'800'000'000) return std::nullopt;
   return PlanePoint{.x_m = (static_cast<double>(point.longitude_e7) - kGeoReference.longitude_e7) * east_m(),
                     .y_m = (static_cast<double>(point.latitude_e7) - kGeoReference.latitude_e7) * kNorth_m};
+}
+
+double distance_m(const PlanePoint& a, const PlanePoint& b) {
+  const double x_m = a.x_m - b.x_m;
+  const double y_m = a.y_m - b.y_m;
+  return std::sqrt(x_m * x_m + y_m * y_m);
 }
 
 }  // namespace lukou

@@ -30,4 +30,7 @@ GeoPoint to_geo(const PlanePoint& point);
 /// Inverse of to_geo; empty if unavailable or out of range. Round-trip error: at most half a unit in each coordinate.
 std::optional<PlanePoint> to_plane(const GeoPoint& point);
 
+/// Between two points [m].
+double distance_m(const PlanePoint& a, const PlanePoint& b);
+
 }  // namespace lukou

@@ -5,6 +5,7 @@
 
 #include "common/scenario/arrivals.hpp"
 #include "common/scenario/plan.hpp"
+#include "common/scenario/radio_preset.hpp"
 #include "common/scenario/wording.hpp"
 
 namespace lukou::scenario {
@@ -23,6 +24,7 @@ class Checker {
     fields_of(scenario_, {});
     demands();
     drivers();
+    links();
     for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
     return std::move(findings_);
   }
@@ -44,7 +46,7 @@ class Checker {
         }
       } else if (!field->is_repeated() && has(message, field)) {
         value_of(message, field, extended(path, field));
-      } else if (!field->is_repeated() && !has_fallback(field) && !is_demand_arm(field)) {
+      } else if (!field->is_repeated() && !has_fallback(field) && !is_demand_arm(field) && !is_latency_arm(field)) {
         findings_.push_back({path,
                              {},
                              text(extended(path, field)) + " is missing; it takes " +
@@ -159,6 +161,55 @@ class Checker {
               number_text(d.stop_speed_kmh()) + " km/h",
           {field("stop_speed_kmh")});
     }
+  }
+
+  void links() {
+    const Radio& radio = scenario_.radio();
+    if (radio.has_uplink()) link(radio.uplink(), path_to({"radio", "uplink"}));
+    if (radio.has_downlink()) link(radio.downlink(), path_to({"radio", "downlink"}));
+  }
+
+  void link(const Link& said, const FieldPath& path) {
+    const FieldPath latency = extended(path, "latency");
+    one_latency(said.latency(), latency);
+    const UniformLatency& uniform = said.latency().uniform();
+    if (uniform.max_ms() < uniform.min_ms()) {
+      at_least(extended(latency, "uniform"), "max_ms", uniform.max_ms(), "min_ms", uniform.min_ms());
+    }
+    const GammaLatency& gamma = said.latency().gamma();
+    if (gamma.mean_ms() < gamma.min_ms()) {
+      at_least(extended(latency, "gamma"), "mean_ms", gamma.mean_ms(), "min_ms", gamma.min_ms());
+    }
+    if (!said.loss().has_burst()) return;
+    // With shorter bursts a loss would make the next one less likely: the model has no such links.
+    const BurstLoss& burst = said.loss().burst();
+    const FieldPath burst_path = extended(extended(path, "loss"), "burst");
+    if (burst.rate() <= 0.0 || burst.rate() >= 1.0 || burst.mean_length() < 1.0) return;
+    if (burst.mean_length() * (1.0 - burst.rate()) > 1.0 - 1e-9) return;
+    add(extended(burst_path, "mean_length"),
+        "is " + number_text(burst.mean_length()) + " frames, must be at least 1 / (1 - rate), " +
+            number_text(1.0 / (1.0 - burst.rate())) + " frames: the length that independent losses have",
+        {extended(burst_path, "rate")});
+  }
+
+  void at_least(const FieldPath& path, const char* upper, double upper_ms, const char* lower, double lower_ms) {
+    add(extended(path, upper),
+        "is " + number_text(upper_ms) + " ms, must be within [" + lower + ", 5000] ms, [" + number_text(lower_ms) +
+            ", 5000] ms",
+        {extended(path, lower)});
+  }
+
+  void one_latency(const Latency& latency, const FieldPath& path) {
+    std::vector<FieldPath> given;
+    std::vector<std::string> names;
+    for (const char* arm : {"constant_ms", "uniform", "gamma"}) {
+      if (!has(latency, Latency::descriptor()->FindFieldByName(arm))) continue;
+      given.push_back(extended(path, arm));
+      names.emplace_back(arm);
+    }
+    if (given.size() < 2) return;
+    findings_.push_back(
+        {given.back(), {}, text(path) + " has " + joined(names, " and ") + "; give one of them alone", ""});
   }
 
   const Scenario& scenario_;

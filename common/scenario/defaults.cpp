@@ -2,6 +2,7 @@
 
 #include "common/core/contract.hpp"
 #include "common/scenario/parse.hpp"
+#include "common/scenario/radio_preset.hpp"
 
 namespace lukou::scenario {
 namespace {
@@ -48,6 +49,7 @@ void fill(Message& message) {
 
 void fill_defaults(Scenario& scenario) {
   if (scenario.rsus_size() == 0) scenario.add_rsus();
+  if (scenario.has_radio()) apply_radio_preset(*scenario.mutable_radio());
   fill(scenario);
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/scenario/parse.hpp"
+#include "common/scenario/radio_preset.hpp"
 #include "common/scenario/wording.hpp"
 
 namespace lukou::scenario {
@@ -80,16 +81,19 @@ Message& entered(Message& message, const PathSegment& segment) {
   return *reflection->AddMessage(&message, segment.field);
 }
 
-/// A demand has one of three arms; which other one stands in the way, if any.
+/// A demand and a latency have one of three arms; which other one stands in the way, if any.
 std::optional<Error> arm_in_the_way(const Message& message, const PathSegment& segment, const FieldPath& so_far) {
-  if (!is_demand_arm(segment.field)) return std::nullopt;
-  const Descriptor* demand = message.GetDescriptor();
-  for (int i = 0; i < demand->field_count(); ++i) {
-    const FieldDescriptor* other = demand->field(i);
-    if (other == segment.field || !is_demand_arm(other) || !has(message, other)) continue;
-    return Error{"", text(so_far) + " already has " + other->name() +
-                         "; a demand is one of flow_veh_per_h, flow_series and arrivals_csv (to replace it: " +
-                         text(so_far) + "={...})"};
+  const bool of_demand = is_demand_arm(segment.field);
+  if (!of_demand && !is_latency_arm(segment.field)) return std::nullopt;
+  const Descriptor* type = message.GetDescriptor();
+  for (int i = 0; i < type->field_count(); ++i) {
+    const FieldDescriptor* other = type->field(i);
+    if (other == segment.field || (of_demand && !is_demand_arm(other)) || !has(message, other)) continue;
+    return Error{"",
+                 text(so_far) + " already has " + other->name() +
+                     (of_demand ? "; a demand is one of flow_veh_per_h, flow_series and arrivals_csv (to replace it: "
+                                : "; a latency is one of constant_ms, uniform and gamma (to replace it: ") +
+                     text(so_far) + "={...})"};
   }
   return std::nullopt;
 }

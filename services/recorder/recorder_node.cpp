@@ -1,6 +1,7 @@
 #include "services/recorder/recorder_node.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "common/core/hash.hpp"
@@ -13,6 +14,39 @@ namespace lukou {
 namespace {
 
 constexpr std::size_t kFlushBytes = 256U << 10U;
+
+std::string_view name_of(Direction direction) { return direction == Direction::kUplink ? "uplink" : "downlink"; }
+
+std::string_view name_of(FrameKind kind) {
+  switch (kind) {
+    case FrameKind::kBsm:
+      return "bsm";
+    case FrameKind::kMap:
+      return "map";
+    case FrameKind::kSpat:
+      return "spat";
+    case FrameKind::kRsm:
+      return "rsm";
+    case FrameKind::kRsc:
+      return "rsc";
+  }
+  return "unknown";
+}
+
+results::RadioRow row_of(const ReceptionFigures& figures) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {.direction = name_of(figures.direction),
+          .kind = name_of(figures.kind),
+          .sent = figures.sent,
+          .heard = figures.heard,
+          .lost_random = figures.lost_random,
+          .lost_burst = figures.lost_burst,
+          .lost_range = figures.lost_range,
+          .duplicates = figures.duplicates,
+          .latency_mean_ms = figures.latency_mean_ms.value_or(kUnknown),
+          .latency_p95_ms = figures.latency_p95_ms.value_or(kUnknown),
+          .latency_p99_ms = figures.latency_p99_ms.value_or(kUnknown)};
+}
 
 results::CarRow row_of(const FinishedCar& car) {
   return {.vehicle = car.vehicle,
@@ -42,6 +76,7 @@ RecorderNode::RecorderNode(const scenario::Resolved& scenario, std::filesystem::
       scenario_hash_(scenario::hash(scenario)),
       folder_(std::move(folder)),
       tables_(std::move(tables)),
+      radio_(folder_),
       measures_(config_.measures) {}
 
 void RecorderNode::add(const std::vector<Directive>& directives) {
@@ -59,9 +94,29 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
   for (const FinishedCar& car : measures_.finished()) tables_.add_car(row_of(car));
   if (step_ > 0) add_rows();
   look_for_anomaly(traffic);
+  if (!traffic.reception.well_formed()) {
+    return Error{"topic lukou/traffic", "the reception report of step " + std::to_string(step_) + " is broken"};
+  }
+  reception_.add(traffic.reception);
+  if (step_ > 0 && step_ % kStepsPerSecond == 0) {
+    if (auto done = add_radio_rows(); !done) return done;
+  }
   std::swap(picture_, traffic);
   if (tables_.buffered_bytes() < kFlushBytes) return Done{};
+  return flush();
+}
+
+Expected<Done> RecorderNode::flush() {
+  if (auto done = radio_.flush(); !done) return done;
   return tables_.flush();
+}
+
+Expected<Done> RecorderNode::add_radio_rows() {
+  radio_rows_to_ = step_;
+  for (const ReceptionFigures& figures : reception_.take()) {
+    if (auto done = radio_.add(step_, row_of(figures)); !done) return done;
+  }
+  return Done{};
 }
 
 void RecorderNode::add_rows() {
@@ -136,8 +191,13 @@ void RecorderNode::fill(View& view) const {
 Expected<Done> RecorderNode::close(const std::string& ended_by, const std::string& culprit) {
   const Step complete_to = std::max<Step>(step_, 0);
   if (complete_to < config_.end && (ended_by == "stopped" || ended_by == "interrupted")) log_.stop = complete_to;
+  if (complete_to > radio_rows_to_) {
+    if (auto done = add_radio_rows(); !done) return done;  // the second that the end has cut short
+  }
+  if (auto done = radio_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
-  const std::string summary = summary_json(measures_.figures(), complete_to, config_.measures.warmup_s);
+  const std::string summary =
+      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any());
   const std::string directives = scenario::text(log_);
   if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
   if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;
@@ -149,6 +209,7 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
                              .ended_by = ended_by,
                              .culprit = culprit,
                              .files = tables_.entries()};
+  if (auto entry = radio_.entry()) manifest.files.push_back(*entry);
   manifest.files.push_back({"directives.textproto", sha256_hex(directives), std::nullopt});
   manifest.files.push_back({"scenario.textproto", scenario_hash_, std::nullopt});
   manifest.files.push_back({"summary.json", sha256_hex(summary), std::nullopt});

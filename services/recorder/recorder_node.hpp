@@ -9,6 +9,8 @@
 #include "common/core/expected.hpp"
 #include "common/intersection/signal_promise.hpp"
 #include "common/lockstep/messages.hpp"
+#include "common/measures/reception_measures.hpp"
+#include "common/results/radio_table.hpp"
 #include "common/results/tables.hpp"
 #include "common/scenario/directive_log.hpp"
 #include "services/recorder/measure_config.hpp"
@@ -30,7 +32,7 @@ class RecorderNode {
   [[nodiscard]] const std::optional<std::string>& anomaly() const { return anomaly_; }
 
   /// Writes rows that are still in memory.
-  Expected<Done> flush() { return tables_.flush(); }
+  Expected<Done> flush();
   [[nodiscard]] Step complete_to() const { return step_; }
   /// What observers see.
   void fill(View& view) const;
@@ -41,6 +43,8 @@ class RecorderNode {
  private:
   RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables);
   void add_rows();
+  /// Rows of radio.csv for the second that ends now.
+  Expected<Done> add_radio_rows();
   void note_hearing(const TrafficBatch& traffic);
   void look_for_anomaly(const TrafficBatch& traffic);
 
@@ -48,7 +52,10 @@ class RecorderNode {
   std::string scenario_hash_;
   std::filesystem::path folder_;
   results::RunTables tables_;
+  results::RadioTable radio_;
   RunMeasures measures_;
+  ReceptionMeasures reception_;
+  Step radio_rows_to_ = 0;  ///< the step of the newest rows of radio.csv
   SignalPromise promise_;
   scenario::DirectiveLog log_;
   std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last

@@ -31,6 +31,10 @@ constexpr std::pair<AdviceFate, const char*> kRefused[] = {
     {AdviceFate::kPastStopLine, "past_stop_line"}, {AdviceFate::kExpired, "expired"},
     {AdviceFate::kSuperseded, "superseded"},       {AdviceFate::kUnknownVehicle, "unknown_vehicle"},
     {AdviceFate::kMalformed, "malformed"},         {AdviceFate::kOutOfLimit, "limit"}};
+constexpr std::pair<AdviceFate, const char*> kLost[] = {
+    {AdviceFate::kLostRandom, "random"}, {AdviceFate::kLostBurst, "burst"}, {AdviceFate::kLostRange, "range"}};
+constexpr std::pair<AdviceFate, const char*> kDropped[] = {{AdviceFate::kStale, "stale"},
+                                                           {AdviceFate::kDuplicate, "duplicate"}};
 constexpr std::pair<AdviceFate, const char*> kChanged[] = {{AdviceFate::kChangedLimit, "limit"},
                                                            {AdviceFate::kChangedGuard, "guard"},
                                                            {AdviceFate::kChangedFollowing, "following"},
@@ -48,7 +52,7 @@ Json fates_json(const RunFigures& figures, const std::pair<AdviceFate, const cha
 
 }  // namespace
 
-std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s) {
+std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled) {
   Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
@@ -57,6 +61,10 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
   json["advice_applied"] = figures.advice(AdviceFate::kApplied);
   json["advice_refused"] = fates_json(figures, kRefused);
   json["advice_changed"] = fates_json(figures, kChanged);
+  if (radio_modelled) {
+    json["advice_lost"] = fates_json(figures, kLost);
+    json["advice_dropped"] = fates_json(figures, kDropped);
+  }
   json["guard_interventions"] = figures.guard_interventions;
   json["collisions"] = figures.collisions;
   json["reversals"] = figures.reversals;

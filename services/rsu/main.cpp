@@ -76,7 +76,9 @@ int run(int argc, char** argv) {
         return signal.ready(k) ? std::string() : std::string(kControllerRole);
       },
       [&](Step k) {
-        scenario::apply(scenario.value(), member.due(k));
+        if (scenario::apply(scenario.value(), member.due(k))) {
+          node.change(rsu_config(scenario.value().message(), static_cast<std::uint32_t>(index)).value());
+        }
         node.step(k, signal.take(k), *air.take(k), answer);
         roadside_out.write(answer, member.epoch());
       });

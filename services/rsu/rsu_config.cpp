@@ -1,5 +1,6 @@
 #include "services/rsu/rsu_config.hpp"
 
+#include "common/scenario/radio.hpp"
 #include "scenario.pb.h"
 
 namespace lukou {
@@ -31,13 +32,13 @@ Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t
     return Error{"rsus", "there is no RSU number " + std::to_string(rsu) + ": the scenario has " +
                              std::to_string(scenario.rsus_size())};
   }
-  if (scenario.radio().preset() != scenario::IDEAL) return Error{"radio.preset", "this RSU knows IDEAL alone"};
   const scenario::Rsu& from = scenario.rsus(static_cast<int>(rsu));
   RsuConfig config;
   config.rsu = rsu;
   config.station_id = kFirstStationId + rsu;
   config.road = {.approach_m = scenario.traffic().approach_length_m(), .exit_m = scenario.traffic().exit_length_m()};
   config.speed_limit_mps = scenario.vehicles().speed_limit_kmh() / 3.6;
+  config.radio = scenario::radio_parameters(scenario);
   config.algorithm = from.algorithm();
   // An RSU with another algorithm says nothing of this one: then its parameters stay at their defaults.
   config.parameters.arrive_on_green.acceleration_max_mps2 = scenario.vehicles().acceleration_max_mps2();

@@ -6,7 +6,7 @@
 #include "common/core/expected.hpp"
 #include "common/intersection/geometry.hpp"
 #include "common/messages/plane.hpp"
-#include "common/radio/modem.hpp"
+#include "common/radio/link_model.hpp"
 #include "services/rsu/algorithms/registry.hpp"
 
 namespace lukou {
@@ -20,7 +20,7 @@ struct RsuConfig {
   std::uint32_t rsu = 0;         ///< index in the scenario's list
   std::uint64_t station_id = 0;  ///< sender of its frames
   PlanePoint antenna;            ///< at the centre of the junction; assumed
-  RadioModel radio = RadioModel::kIdeal;
+  RadioParameters radio;
   RoadLengths road;
   double speed_limit_mps = 0.0;
   std::string algorithm;
@@ -28,7 +28,7 @@ struct RsuConfig {
 };
 
 /// The configuration of the scenario's RSU number `rsu`. The scenario is resolved: every field is present and valid.
-/// Fails if there is no such RSU, or the radio is one that this program does not know.
+/// Fails if there is no such RSU.
 Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t rsu);
 
 }  // namespace lukou

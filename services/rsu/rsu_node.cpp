@@ -46,7 +46,7 @@ std::optional<CarReport> report_of(const BasicSafety& message, Step now) {
 RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
     : config_(std::move(config)),
       algorithm_(std::move(algorithm)),
-      modem_(config_.radio, config_.antenna),
+      modem_(config_.radio.seed, config_.radio.uplink),
       cars_(config_.road),
       map_(map_of(config_)) {
   LUKOU_EXPECT(algorithm_ != nullptr);
@@ -63,6 +63,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   out.frames_heard = 0;
   out.frames_malformed = 0;
   out.answers_malformed = 0;
+  out.reception.clear();
   if (new_signal != nullptr) {
     const auto taken = signals_.take({.first = new_signal->first,
                                       .heads = new_signal->heads,
@@ -79,21 +80,54 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   say_guidance(k, out);
 }
 
+void RsuNode::change(const RsuConfig& config) {
+  config_.radio = config.radio;
+  modem_.use(config.radio.uplink);
+}
+
 void RsuNode::hear(Step k, const AirBatch& air, RoadsideBatch& out) {
-  for (std::size_t frame = 0; frame < air.frames.size(); ++frame) {
-    const std::optional<Step> heard_at = modem_.heard_at(air.frames, frame, air.step);
-    if (!heard_at) continue;
-    LUKOU_EXPECT(*heard_at == k);  // no radio model of today delays a frame
-    ++out.frames_heard;
-    if (air.frames.kind[frame] != static_cast<std::uint8_t>(FrameKind::kBsm)) continue;
-    const Expected<BasicSafety> message = decode_bsm(air.frames.payload_of(frame));
-    if (!message) {
-      ++out.frames_malformed;
-    } else if (const auto report = report_of(message.value(), k)) {
-      cars_.hear(*report);
+  if (!config_.radio.modelled) {
+    for (std::size_t frame = 0; frame < air.frames.size(); ++frame) {
+      understand(k, air.frames.kind[frame], air.frames.payload_of(frame), out);
     }
+  } else {
+    tally_.clear();
+    receive(air);
+    for (const auto& item : inbox_.take(k)) {
+      tally_.count_delivered(item.arrival.latency_ms, item.duplicate);
+      if (!item.duplicate) understand(k, item.content.kind, item.content.payload, out);
+    }
+    out.reception.add(Direction::kUplink, FrameKind::kBsm, tally_);
   }
   cars_.arrange(k);
+}
+
+void RsuNode::receive(const AirBatch& air) {
+  const Frames& frames = air.frames;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    const PlanePoint antenna{frames.antenna_x_m[frame], frames.antenna_y_m[frame]};
+    const Hop hop{.sender = frames.sender[frame],
+                  .receiver = config_.station_id,
+                  .sequence = frames.sequence[frame],
+                  .sent = air.step,
+                  .distance_m = distance_m(antenna, config_.antenna)};
+    const Reception reception = modem_.receive(hop);
+    tally_.count_sent(reception);
+    if (reception.lost) continue;
+    const auto payload = frames.payload_of(frame);
+    inbox_.add(reception, hop, {frames.kind[frame], {payload.begin(), payload.end()}});
+  }
+}
+
+void RsuNode::understand(Step k, std::uint8_t kind, std::span<const std::uint8_t> payload, RoadsideBatch& out) {
+  ++out.frames_heard;
+  if (kind != static_cast<std::uint8_t>(FrameKind::kBsm)) return;
+  const Expected<BasicSafety> message = decode_bsm(payload);
+  if (!message) {
+    ++out.frames_malformed;
+  } else if (const auto report = report_of(message.value(), k)) {
+    cars_.hear(*report);
+  }
 }
 
 void RsuNode::think(Step k) {

@@ -3,11 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "common/bus/batches.hpp"
 #include "common/messages/map.hpp"
 #include "common/messages/rsc.hpp"
 #include "common/messages/spat.hpp"
+#include "common/radio/inbox.hpp"
 #include "common/radio/modem.hpp"
 #include "services/rsu/model/heard_cars.hpp"
 #include "services/rsu/model/signal_view.hpp"
@@ -23,6 +26,8 @@ class RsuNode {
   /// Requires an algorithm.
   RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm);
 
+  /// The scenario after the directives of the next step: takes over the radio, nothing else.
+  void change(const RsuConfig& config);
   /// The step function. `new_signal` is the controller's batch if there is a new one, otherwise null: then what it
   /// promised before stands. `out` is overwritten, all but its epoch.
   /// Requires steps one after the other, air of the same step, and a well-formed promise that covers it: the lockstep
@@ -30,7 +35,15 @@ class RsuNode {
   void step(Step k, const SignalBatch* new_signal, const AirBatch& air, RoadsideBatch& out);
 
  private:
+  /// A frame on its way to this RSU.
+  struct Underway {
+    std::uint8_t kind = 0;  ///< FrameKind
+    std::vector<std::uint8_t> payload;
+  };
+
   void hear(Step k, const AirBatch& air, RoadsideBatch& out);
+  void receive(const AirBatch& air);
+  void understand(Step k, std::uint8_t kind, std::span<const std::uint8_t> payload, RoadsideBatch& out);
   void think(Step k);
   void say_spat(Step k, Frames& frames);
   void say_map(Step k, Frames& frames);
@@ -42,6 +55,8 @@ class RsuNode {
   RsuConfig config_;
   std::unique_ptr<RsuAlgorithm> algorithm_;
   Modem modem_;
+  Inbox<Underway> inbox_;  ///< stays empty under the ideal radio
+  ReceptionTally tally_;   ///< of this step
   HeardCars cars_;
   SignalView signals_;
   RsuView view_;

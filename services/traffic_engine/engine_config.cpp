@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "common/scenario/radio.hpp"
 #include "common/scenario/scenario.hpp"
 #include "scenario.pb.h"
 
@@ -101,6 +102,7 @@ Expected<Done> fit_together(const traffic::DrivingParameters& driving) {
 Expected<EngineConfig> engine_config(const scenario::Resolved& scenario) {
   const scenario::Scenario& from = scenario.message();
   EngineConfig config;
+  config.radio = scenario::radio_parameters(from);
   config.traffic.seed = from.run().seed();
   config.traffic.overflow_wait_s = from.run().overflow_wait_s();
   config.traffic.vehicles = vehicle_parameters(from.vehicles());

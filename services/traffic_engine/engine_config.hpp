@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/core/expected.hpp"
-#include "common/radio/modem.hpp"
+#include "common/radio/link_model.hpp"
 #include "services/traffic_engine/model/parameters.hpp"
 
 namespace lukou {
@@ -13,7 +13,7 @@ class Resolved;
 /// What the traffic engine takes from a scenario.
 struct EngineConfig {
   traffic::EngineParameters traffic;
-  RadioModel radio = RadioModel::kIdeal;
+  RadioParameters radio;
 };
 
 /// Reads it, traces of arrivals included. Refuses values that are each in range but do not go together.

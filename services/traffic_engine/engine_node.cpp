@@ -20,6 +20,18 @@ constexpr double kBrakePedal_mps2 = 0.5;
 /// Steps that begin within a lifetime: an advice of 250 ms acts in three.
 Step steps_of_life(std::uint32_t lifetime_ms) { return (static_cast<Step>(lifetime_ms) + kStep_ms - 1) / kStep_ms; }
 
+AdviceFate fate_of(LossCause cause) {
+  switch (cause) {
+    case LossCause::kRandom:
+      return AdviceFate::kLostRandom;
+    case LossCause::kBurst:
+      return AdviceFate::kLostBurst;
+    case LossCause::kRange:
+      break;
+  }
+  return AdviceFate::kLostRange;
+}
+
 bool same_flows(const traffic::DemandParameters& a, const traffic::DemandParameters& b) {
   const auto same = [](const traffic::Flow& x, const traffic::Flow& y) {
     return x.from_s == y.from_s && x.flow_veh_per_h == y.flow_veh_per_h;
@@ -30,7 +42,7 @@ bool same_flows(const traffic::DemandParameters& a, const traffic::DemandParamet
 }  // namespace
 
 EngineNode::EngineNode(const EngineConfig& config)
-    : config_(config), engine_(config.traffic), modem_(config.radio, PlanePoint{}) {}
+    : config_(config), engine_(config.traffic), modem_(config.radio.seed, config.radio.downlink) {}
 
 void EngineNode::change(const EngineConfig& config) {
   for (const Approach approach : kAllApproaches) {
@@ -43,6 +55,8 @@ void EngineNode::change(const EngineConfig& config) {
   }
   config_.traffic.equipped_ratio = config.traffic.equipped_ratio;
   engine_.change_equipped_ratio(config.traffic.equipped_ratio);
+  config_.radio = config.radio;
+  modem_.use(config.radio.downlink);
 }
 
 Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span<const RoadsideBatch* const> roadside,
@@ -55,15 +69,18 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
     return Error{"signal", "the heads of step " + std::to_string(k - 1) + " are not promised"};
   }
   advice_.clear();
-  undecodable_.clear();
+  fates_.clear();
+  tally_.clear();
   for (const RoadsideBatch* batch : roadside) {
     if (batch != nullptr) hear(*batch);
   }
+  if (config_.radio.modelled) deliver(k - 1);
   engine_.step(k, k > 0 ? promise_.at(k - 1) : Heads{}, advice_);
   promise_.forget_before(k);
 
   report(engine_, k, traffic);
-  report_undecodable(traffic);
+  report_fates(traffic);
+  if (auto done = report_reception(roadside, traffic); !done) return done;
   for (const RoadsideBatch* batch : roadside) {
     traffic.heard_epoch.push_back(batch != nullptr ? batch->epoch : 0);
     if (batch != nullptr) traffic.answers_malformed += batch->answers_malformed;
@@ -77,9 +94,6 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
 void EngineNode::hear(const RoadsideBatch& batch) {
   for (std::size_t frame = 0; frame < batch.frames.size(); ++frame) {
     if (batch.frames.kind[frame] != static_cast<std::uint8_t>(FrameKind::kRsc)) continue;
-    const std::optional<Step> heard_at = modem_.heard_at(batch.frames, frame, batch.step);
-    if (!heard_at) continue;
-    LUKOU_EXPECT(*heard_at == batch.step);  // the ideal radio has no latency
     hear_coordination(batch, frame);
   }
 }
@@ -88,7 +102,7 @@ void EngineNode::hear_coordination(const RoadsideBatch& batch, std::size_t frame
   const std::uint32_t sequence = batch.frames.sequence[frame];
   const auto message = decode_rsc(batch.frames.payload_of(frame));
   if (!message) {
-    undecodable_.push_back({batch.rsu, sequence});
+    fates_.push_back({traffic::kNoVehicle, batch.rsu, sequence, AdviceFate::kMalformed});
     return;
   }
   const Step issued = step_of_second_mark(batch.step, message.value().second_mark_ms);
@@ -106,18 +120,72 @@ void EngineNode::hear_coordination(const RoadsideBatch& batch, std::size_t frame
       advice.acceleration_mps2 = asked.path->acceleration_mps2;
       advice.lifetime = steps_of_life(asked.path->lifetime_ms);
     }
-    advice_.push_back(advice);
+    if (config_.radio.modelled) {
+      send(advice, batch, frame);
+    } else {
+      advice_.push_back(advice);
+    }
   }
 }
 
-void EngineNode::report_undecodable(TrafficBatch& traffic) const {
-  for (const Undecodable& frame : undecodable_) {
-    traffic.fate_vehicle.push_back(traffic::kNoVehicle);
-    traffic.fate_rsu.push_back(frame.rsu);
-    traffic.fate_sequence.push_back(frame.sequence);
-    traffic.fate.push_back(static_cast<std::uint8_t>(AdviceFate::kMalformed));
+void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame) {
+  const auto target = engine_.equipped_car(advice.target);
+  if (!target) {
+    advice_.push_back(advice);  // nobody is there to miss it: the engine says so
+    return;
+  }
+  const Pose pose = pose_on_path(engine_.parameters().road, target->lane, target->car->motion.position_m);
+  const PlanePoint car = centre_of_car({pose.x_m, pose.y_m}, pose.heading_rad, engine_.parameters().vehicles.length_m);
+  const Hop hop{.sender = batch.frames.sender[frame],
+                .receiver = advice.target,
+                .sequence = advice.sequence,
+                .sent = batch.step,
+                .distance_m = distance_m({batch.frames.antenna_x_m[frame], batch.frames.antenna_y_m[frame]}, car)};
+  const Reception reception = modem_.receive(hop);
+  tally_.count_sent(reception);
+  if (!reception.lost) {
+    inbox_.add(reception, hop, advice);
+  } else if (!advice.release) {
+    fates_.push_back({target->car->vehicle, advice.rsu, advice.sequence, fate_of(*reception.lost)});
+  }
+}
+
+void EngineNode::deliver(Step now) {
+  for (const auto& item : inbox_.take(now)) {
+    const traffic::Advice& advice = item.content;
+    tally_.count_delivered(item.arrival.latency_ms, item.duplicate);
+    if (!item.duplicate) {
+      advice_.push_back(advice);
+    } else if (!advice.release) {
+      const auto target = engine_.equipped_car(advice.target);
+      fates_.push_back(
+          {target ? target->car->vehicle : traffic::kNoVehicle, advice.rsu, advice.sequence, AdviceFate::kDuplicate});
+    }
+  }
+}
+
+void EngineNode::report_fates(TrafficBatch& traffic) const {
+  for (const Fate& known : fates_) {
+    traffic.fate_vehicle.push_back(known.vehicle);
+    traffic.fate_rsu.push_back(known.rsu);
+    traffic.fate_sequence.push_back(known.sequence);
+    traffic.fate.push_back(static_cast<std::uint8_t>(known.fate));
     traffic.fate_again.push_back(0);
   }
+}
+
+Expected<Done> EngineNode::report_reception(std::span<const RoadsideBatch* const> roadside,
+                                            TrafficBatch& traffic) const {
+  if (!config_.radio.modelled) return Done{};
+  traffic.reception.add(Direction::kDownlink, FrameKind::kRsc, tally_);
+  for (const RoadsideBatch* batch : roadside) {
+    if (batch == nullptr) continue;
+    if (!batch->reception.well_formed()) {
+      return Error{"roadside", "the reception report of rsu" + std::to_string(batch->rsu) + " has broken columns"};
+    }
+    traffic.reception.add(batch->reception);
+  }
+  return Done{};
 }
 
 void EngineNode::speak(Step k, Frames& frames) const {

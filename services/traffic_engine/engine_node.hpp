@@ -6,6 +6,7 @@
 #include "common/bus/batches.hpp"
 #include "common/core/expected.hpp"
 #include "common/intersection/signal_promise.hpp"
+#include "common/radio/inbox.hpp"
 #include "common/radio/modem.hpp"
 #include "services/traffic_engine/engine_config.hpp"
 #include "services/traffic_engine/model/engine.hpp"
@@ -17,7 +18,7 @@ class EngineNode {
  public:
   explicit EngineNode(const EngineConfig& config);
 
-  /// The scenario after the directives of the next step: takes over flows and the equipped ratio, nothing else.
+  /// The scenario after the directives of the next step: takes over flows, the equipped ratio and the radio.
   void change(const EngineConfig& config);
   /// Executes step k. `new_signal` is the controller's newest batch if one came, `roadside` each RSU's batch of step
   /// k - 1 (nullptr = silent). Fills `traffic` and `air`. Fails if the controller's promise does not hold the heads of
@@ -26,23 +27,31 @@ class EngineNode {
                       TrafficBatch& traffic, AirBatch& air);
 
  private:
-  struct Undecodable {
+  /// The end of an advice that no on-board unit decides on.
+  struct Fate {
+    std::uint32_t vehicle = 0;
     std::uint32_t rsu = 0;
     std::uint32_t sequence = 0;
+    AdviceFate fate{};
   };
 
   void hear(const RoadsideBatch& batch);
   void hear_coordination(const RoadsideBatch& batch, std::size_t frame);
-  void report_undecodable(TrafficBatch& traffic) const;
+  void send(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame);
+  /// Takes the advice that has reached its car by `now`.
+  void deliver(Step now);
+  void report_fates(TrafficBatch& traffic) const;
+  Expected<Done> report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const;
   void speak(Step k, Frames& frames) const;
 
   EngineConfig config_;  ///< as it is in force
   traffic::Engine engine_;
   SignalPromise promise_;
-  /// Stands for the units of all cars, since the ideal radio treats every place alike.
-  Modem modem_;
-  std::vector<traffic::Advice> advice_;   ///< heard in this step
-  std::vector<Undecodable> undecodable_;  ///< frames heard in this step
+  Modem modem_;                          ///< of the units of all cars
+  Inbox<traffic::Advice> inbox_;         ///< stays empty under the ideal radio
+  ReceptionTally tally_;                 ///< of this step
+  std::vector<traffic::Advice> advice_;  ///< heard in this step
+  std::vector<Fate> fates_;              ///< that became known in this step
 };
 
 }  // namespace lukou

@@ -22,6 +22,7 @@ static_assert(static_cast<int>(AdviceOutcome::kSuperseded) == static_cast<int>(A
 static_assert(static_cast<int>(AdviceOutcome::kUnknownVehicle) == static_cast<int>(AdviceFate::kUnknownVehicle));
 static_assert(static_cast<int>(AdviceOutcome::kMalformed) == static_cast<int>(AdviceFate::kMalformed));
 static_assert(static_cast<int>(AdviceOutcome::kOutOfLimit) == static_cast<int>(AdviceFate::kOutOfLimit));
+static_assert(static_cast<int>(AdviceOutcome::kStale) == static_cast<int>(AdviceFate::kStale));
 
 void report_cars(const traffic::Engine& engine, TrafficBatch& batch) {
   for (int i = 0; i < kLanes; ++i) {

@@ -14,10 +14,10 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"intersection", {"core"}},
     {"messages", {"core", "intersection"}},
     {"radio", {"core", "messages"}},
-    {"scenario", {"core", "intersection"}},
+    {"scenario", {"core", "intersection", "radio"}},
     {"lockstep", {"core"}},
-    {"bus", {"core", "lockstep", "messages"}},
-    {"measures", {"core", "intersection", "bus"}},  // of the bus the plain batches alone, see kOnlyHeader
+    {"bus", {"core", "lockstep", "messages", "radio"}},
+    {"measures", {"core", "intersection", "radio", "bus"}},  // of the bus the plain batches alone, see kOnlyHeader
     {"results", {"core", "intersection"}},
     {"process", {"core", "lockstep", "bus"}},
 };

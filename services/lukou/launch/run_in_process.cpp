@@ -126,6 +126,9 @@ class InProcessRun {
     recorder_->add(due);
     controller_->use_plan(scenario::signal_plan(scenario_).value(), k);
     engine_->change(engine_config(scenario_).value());
+    for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu) {
+      if (rsus_[rsu].node) rsus_[rsu].node->change(rsu_config(scenario_.message(), rsu).value());
+    }
     return Done{};
   }
 

@@ -59,7 +59,12 @@ std::string summary_text(const launch::RunReport& report) {
     }
     text += "advice: " + cell(summary["advice_sent"]) + " sent, " + cell(summary["advice_applied"]) + " applied, " +
             cell(summary["advice_changed"]["total"]) + " changed by a rule, " +
-            cell(summary["advice_refused"]["total"]) + " refused\n";
+            cell(summary["advice_refused"]["total"]) + " refused";
+    if (summary.contains("advice_lost")) {
+      text += ", " + cell(summary["advice_lost"]["total"]) + " lost on the air, " +
+              cell(summary["advice_dropped"]["total"]) + " stale or heard twice";
+    }
+    text += "\n";
     text += "safety: " + cell(summary["collisions"]) + " collisions, " + cell(summary["reversals"]) + " reversals, " +
             cell(summary["red_crossings"]) + " crossings on red (cars that could not stop), least head distance " +
             cell(summary["min_head_distance_m"]) + " m\n";

@@ -117,6 +117,14 @@ const Engine::Station* Engine::station(std::uint64_t temporary_id) const {
   return found != stations_.end() && found->temporary_id == temporary_id ? &*found : nullptr;
 }
 
+std::optional<Engine::EquippedCar> Engine::equipped_car(std::uint64_t temporary_id) const {
+  const Station* found = station(temporary_id);
+  if (found == nullptr) return std::nullopt;
+  const Car* car = lanes_[index(found->lane)].find(found->vehicle);
+  LUKOU_EXPECT(car != nullptr);
+  return EquippedCar{found->lane, car};
+}
+
 void Engine::change_flow(Approach approach, double flow_veh_per_h) {
   entrances_[index(approach)].demand.change_flow(time_s(std::max<Step>(next_step_ - 1, 0)), flow_veh_per_h);
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,12 @@ class Engine {
   /// True if some car has waited outside longer than overflow_wait_s.
   [[nodiscard]] bool overflows() const { return overflows_; }
   [[nodiscard]] const EngineParameters& parameters() const { return parameters_; }
+  /// The car on the road that has this temporary id and an on-board unit; valid until the next step.
+  struct EquippedCar {
+    Lane lane{};
+    const Car* car = nullptr;
+  };
+  [[nodiscard]] std::optional<EquippedCar> equipped_car(std::uint64_t temporary_id) const;
 
  private:
   struct Waiting {

@@ -61,6 +61,11 @@ Car* LaneTraffic::find(std::uint32_t vehicle) {
   return found != cars_.end() && found->vehicle == vehicle ? &*found : nullptr;
 }
 
+const Car* LaneTraffic::find(std::uint32_t vehicle) const {
+  const auto found = std::ranges::lower_bound(cars_, vehicle, {}, &Car::vehicle);
+  return found != cars_.end() && found->vehicle == vehicle ? &*found : nullptr;
+}
+
 void LaneTraffic::enter(const Car& car) {
   cars_.push_back(car);
   natural_mps2_.resize(natural_mps2_.size() + delay_steps_, 0.0);

@@ -70,6 +70,7 @@ class LaneTraffic {
   [[nodiscard]] std::optional<Motion> last() const;
   /// The car, or nullptr if it is not on this lane.
   Car* find(std::uint32_t vehicle);
+  [[nodiscard]] const Car* find(std::uint32_t vehicle) const;
 
  private:
   /// What a car wants, and what its unit will say of the advice in force.

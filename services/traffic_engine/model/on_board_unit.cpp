@@ -11,8 +11,10 @@ void OnBoardUnit::take(const Advice& advice, Step step, std::uint32_t vehicle, s
     if (!advice.release) outcomes.push_back({vehicle, advice.rsu, advice.sequence, reason, false});
   };
   const bool newest = std::tuple(advice.issued, advice.rsu, advice.sequence) >= std::tuple(issued_, rsu_, sequence_);
-  if (!newest)
-    return refuse(step > advice.issued + advice.lifetime ? AdviceOutcome::kExpired : AdviceOutcome::kSuperseded);
+  if (!newest) {
+    if (step > advice.issued + advice.lifetime) return refuse(AdviceOutcome::kExpired);
+    return refuse(advice.issued < issued_ ? AdviceOutcome::kStale : AdviceOutcome::kSuperseded);
+  }
   if (!advice.release && step > advice.issued + advice.lifetime) return refuse(AdviceOutcome::kExpired);
   if (holds_ && use_ == Use::kUnused) outcomes.push_back({vehicle, rsu_, sequence_, AdviceOutcome::kSuperseded, false});
   holds_ = !advice.release;

@@ -26,6 +26,7 @@ enum class AdviceOutcome : std::uint8_t {
   kUnknownVehicle = 8,
   kMalformed = 9,
   kOutOfLimit = 10,
+  kStale = 14,
 };
 
 /// An advice as the radio delivered it. It may be used in the steps issued + 1 ... issued + lifetime.

@@ -20,9 +20,14 @@ auto members(AirBatch& b) {
   return std::tuple_cat(std::tie(step), members(frames));
 }
 
+auto members(ReceptionReport& r) {
+  auto& [direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, latency] = r;
+  return std::tie(direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, latency);
+}
+
 auto members(RoadsideBatch& b) {
-  auto& [rsu, epoch, step, frames, heard, malformed, answers] = b;
-  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers), members(frames));
+  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception] = b;
+  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers), members(frames), members(reception));
 }
 
 auto members(SignalBatch& b) {
@@ -34,11 +39,13 @@ auto members(TrafficBatch& b) {
   auto& [step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, arrived, waiting,
          arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped, entered_speed, entered_desired,
          crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time, fate_vehicle, fate_rsu,
-         fate_sequence, fate, fate_again, answers, guard, overflow, heard] = b;
-  return std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, arrived,
-                  waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped, entered_speed,
-                  entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
-                  fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, answers, guard, overflow, heard);
+         fate_sequence, fate, fate_again, answers, guard, overflow, heard, reception] = b;
+  return std::tuple_cat(
+      std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, arrived, waiting,
+               arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped, entered_speed,
+               entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time, fate_vehicle,
+               fate_rsu, fate_sequence, fate, fate_again, answers, guard, overflow, heard),
+      members(reception));
 }
 
 auto members(Control& m) {

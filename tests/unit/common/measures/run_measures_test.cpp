@@ -234,6 +234,16 @@ TEST(RunMeasures, CountsEachAdviceByItsLastFate) {
   EXPECT_EQ(figures.advice(AdviceFate::kExpired), 1U);
 }
 
+TEST(RunMeasures, CountsADuplicateApartFromItsAdvice) {
+  Script script;
+  script.fate(AdviceFate::kApplied), script.fate(AdviceFate::kDuplicate), script.fate(AdviceFate::kLostBurst);
+  script.next();
+  const RunFigures figures = script.measures().figures();
+  EXPECT_EQ(figures.advice_sent, 2U);
+  EXPECT_EQ(figures.advice(AdviceFate::kDuplicate), 1U);
+  EXPECT_EQ(figures.advice(AdviceFate::kLostBurst), 1U);
+}
+
 TEST(RunMeasures, SeesCollisionsReversalsAndCrossingsOnRed) {
   Script script;
   script.enter(0), script.enter(4);

@@ -9,7 +9,8 @@ namespace {
 
 scenario::Scenario two_rsus() {
   scenario::Scenario from;
-  from.mutable_radio()->set_preset(scenario::IDEAL);
+  from.mutable_run()->set_seed(3);
+  from.mutable_radio()->mutable_uplink()->mutable_loss()->set_rate(0.25);
   from.mutable_traffic()->set_approach_length_m(400.0);
   from.mutable_traffic()->set_exit_length_m(80.0);
   from.mutable_vehicles()->set_speed_limit_kmh(72.0);
@@ -36,6 +37,9 @@ TEST(RsuConfig, SaysWhatTheScenarioSays) {
   EXPECT_EQ(parameters.headway_s, 1.5);
   EXPECT_EQ(parameters.rates.final_braking_mps2, 1.1);
   EXPECT_EQ(parameters.lifetime_s, 2.0);
+  EXPECT_TRUE(config.value().radio.modelled);
+  EXPECT_EQ(config.value().radio.seed, 3U);
+  EXPECT_EQ(config.value().radio.uplink.loss_rate, 0.25);
   EXPECT_NE(config.value().station_id, rsu_config(two_rsus(), 0).value().station_id);
 }
 

@@ -185,7 +185,7 @@ TEST(Advice, ThatANewerOneOvertakesIsSuperseded) {
   EXPECT_NEAR(ride.cars()[0].motion.acceleration_mps2, -2.0, 1e-12);
 }
 
-TEST(Advice, ThatIsOlderThanTheOneInForceIsSuperseded) {
+TEST(Advice, ThatIsOlderThanTheOneInForceIsStale) {
   Ride ride(with_arrivals(calm_parameters(), {0.0}));
   ride.run_to(50);
   Advice older = ride.advise(0, 1.0, 20);
@@ -193,7 +193,7 @@ TEST(Advice, ThatIsOlderThanTheOneInForceIsSuperseded) {
   send(ride, ride.advise(0, -1.0, 20));
   ride.take_outcomes();
   send(ride, older);
-  expect_one(ride.take_outcomes(), AdviceOutcome::kSuperseded);
+  expect_one(ride.take_outcomes(), AdviceOutcome::kStale);
   EXPECT_NEAR(ride.cars()[0].motion.acceleration_mps2, -1.0, 1e-12);
 }
 

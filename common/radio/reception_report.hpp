@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/messages/frames.hpp"
+#include "common/radio/modem.hpp"
+
+namespace lukou {
+
+/// Which way a frame goes; the values stand on the bus.
+enum class Direction : std::uint8_t { kUplink = 0, kDownlink = 1 };
+
+/// Counts what became of frames of one kind in one direction. A frame counts once per receiver.
+struct ReceptionTally {
+  std::uint32_t sent = 0;   ///< that the modem has decided on
+  std::uint32_t heard = 0;  ///< delivered, duplicates not counted
+  std::uint32_t lost_random = 0;
+  std::uint32_t lost_burst = 0;
+  std::uint32_t lost_range = 0;
+  std::uint32_t duplicates = 0;    ///< delivered a second time
+  std::vector<double> latency_ms;  ///< of each that was heard, in order
+
+  void clear();
+  void count_sent(const Reception& reception);
+  void count_delivered(double latency, bool duplicate);
+};
+
+/// What the radio did in a step, a row per direction and kind of frame; empty under the ideal radio. It speaks of the
+/// frames sent at the instant and of those delivered at it, which may have been sent before.
+struct ReceptionReport {
+  std::vector<std::uint8_t> direction;  ///< Direction
+  std::vector<std::uint8_t> kind;       ///< FrameKind
+  std::vector<std::uint32_t> sent;
+  std::vector<std::uint32_t> heard;
+  std::vector<std::uint32_t> lost_random;
+  std::vector<std::uint32_t> lost_burst;
+  std::vector<std::uint32_t> lost_range;
+  std::vector<std::uint32_t> duplicates;
+  std::vector<double> latency_ms;  ///< `heard` values of the first row, then of the second, ...
+
+  [[nodiscard]] std::size_t size() const { return direction.size(); }
+  void clear();
+  void add(Direction way, FrameKind frames, const ReceptionTally& tally);
+  void add(const ReceptionReport& other);
+  /// Whether every column has its length: a report from the bus must be asked first.
+  [[nodiscard]] bool well_formed() const;
+};
+
+}  // namespace lukou
