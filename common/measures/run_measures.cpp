@@ -1,6 +1,7 @@
 #include "common/measures/run_measures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/core/contract.hpp"
 #include "common/measures/free_motion.hpp"
@@ -83,6 +84,11 @@ void RunMeasures::add_motion(const TrafficBatch& batch) {
     const double position_m = batch.position_m[i];
     if (position_m < seen.position_m) ++totals_.reversals;
     seen.position_m = position_m;
+    if (measured) {
+      Sums& group = sums(seen);
+      group.acceleration_mps2 += std::abs(batch.acceleration_mps2[i]);
+      ++group.driven_steps;
+    }
     if (i > 0 && batch.lane[i - 1] == batch.lane[i]) {
       const double distance_m = batch.position_m[i - 1] - position_m;
       if (!totals_.min_head_distance_m || distance_m < *totals_.min_head_distance_m) {
@@ -179,6 +185,8 @@ RunMeasures::Sums& RunMeasures::Sums::operator+=(const Sums& other) {
   standing_steps += other.standing_steps;
   stops += other.stops;
   queued_steps += other.queued_steps;
+  acceleration_mps2 += other.acceleration_mps2;
+  driven_steps += other.driven_steps;
   return *this;
 }
 
@@ -200,6 +208,7 @@ GroupFigures RunMeasures::figures_of(const Sums& sums) const {
       ratio(static_cast<double>(sums.standing_steps) / static_cast<double>(kStepsPerSecond), sums.crossed);
   group.stops_per_vehicle = ratio(static_cast<double>(sums.stops), sums.crossed);
   group.mean_queue_veh = ratio(static_cast<double>(sums.queued_steps), measured_steps_ * kLanes);
+  group.mean_abs_acceleration_mps2 = ratio(sums.acceleration_mps2, sums.driven_steps);
   return group;
 }
 

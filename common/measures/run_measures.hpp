@@ -65,7 +65,8 @@ struct GroupFigures {
   std::optional<double> mean_delay_s;  ///< over those that have also left the exit
   std::optional<double> mean_stop_time_s;
   std::optional<double> stops_per_vehicle;
-  std::optional<double> mean_queue_veh;  ///< standing cars per lane, over the steps after the warm-up
+  std::optional<double> mean_queue_veh;              ///< standing cars per lane, over the steps after the warm-up
+  std::optional<double> mean_abs_acceleration_mps2;  ///< over all cars on the road and the steps after the warm-up
 };
 
 /// Every figure of a run up to the newest step.
@@ -132,6 +133,8 @@ class RunMeasures {
     std::uint64_t standing_steps = 0;
     std::uint64_t stops = 0;
     std::uint64_t queued_steps = 0;  ///< cars standing, summed over the steps after the warm-up
+    double acceleration_mps2 = 0.0;  ///< without its sign, summed over cars and the steps after the warm-up
+    std::uint64_t driven_steps = 0;  ///< terms of that sum
 
     Sums& operator+=(const Sums& other);
   };

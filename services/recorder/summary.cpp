@@ -24,7 +24,8 @@ Json group_json(const GroupFigures& group) {
           {"mean_delay_s", number(group.mean_delay_s)},
           {"mean_stop_time_s", number(group.mean_stop_time_s)},
           {"stops_per_vehicle", number(group.stops_per_vehicle)},
-          {"mean_queue_veh", number(group.mean_queue_veh)}};
+          {"mean_queue_veh", number(group.mean_queue_veh)},
+          {"mean_abs_acceleration_mps2", number(group.mean_abs_acceleration_mps2)}};
 }
 
 constexpr std::pair<AdviceFate, const char*> kRefused[] = {

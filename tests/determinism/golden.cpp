@@ -25,7 +25,7 @@ road.csv c0b806129d049d97227714a011c7b4bbd17eabfb6b1600a494074f30419929ae
 scenario.textproto 3d6c46ff24451690e9d86ee3dd8347b9eb69d87a6f6137d83505b4e9129ebfb1
 stop.csv 7294999083b2b67081e2f6970e2aeda8fe33878f4426dae7838e52b017cf05e4
 stop_time.csv 82e4e18ceb748921c529b8d3a865f3876a6c8f90ce74bbdc65183f04f5073f06
-summary.json a6d77b4382dd5e2499c4fe3996cbe5da38cef7cd3a3cac05a7e7a4a3a09f8a3c
+summary.json 5d54488e4c4590ced9c8af91acfa67fa42cba548e4ed9c6c02d8afd6f2862be7
 )"},
       {.name = "protected left turns under changing demand",
        .arguments = paper_with(
@@ -40,7 +40,7 @@ road.csv 09276241b273bf621c8d9808c73ffafb8320ba43febc423aaa4408e72bb18745
 scenario.textproto aa03c9265c67d88626852c4ac933b9af24faaecbce18e6c90a7bc574cd176d62
 stop.csv 78df05efbf88e514960c204a9b716095e7739bdb21609578ced4f28ef26744d7
 stop_time.csv 24995a45268ca401a2251baa3b4e1ab902d6cd7f08a4a2e8bca74e0e4ff356f5
-summary.json 67c2c51fce3b7998e3819388e5eceb12eff8bc5029a8eb345f609b5d1ce1e147
+summary.json c837b17589fd426193cb73d6edca63284117aa42bef69280de8e260a8d19fb82
 )"}};
   return kRuns;
 }

@@ -22,12 +22,14 @@ class Script {
     batch_.entered_speed_mps.push_back(speed_mps);
     batch_.entered_desired_speed_mps.push_back(15.0);
   }
-  void drive(std::uint32_t vehicle, double position_m, double speed_mps, CarState state = CarState::kIn) {
+  void drive(std::uint32_t vehicle, double position_m, double speed_mps, CarState state = CarState::kIn,
+             double acceleration_mps2 = 0.0) {
     batch_.vehicle.push_back(vehicle);
     batch_.lane.push_back(kWestCenter);
     batch_.state.push_back(static_cast<std::uint8_t>(state));
     batch_.position_m.push_back(position_m);
     batch_.speed_mps.push_back(speed_mps);
+    batch_.acceleration_mps2.push_back(acceleration_mps2);
   }
   void cross(std::uint32_t vehicle, double at_s, Aspect aspect = Aspect::kGreen) {
     batch_.crossed_vehicle.push_back(vehicle);
@@ -202,6 +204,22 @@ TEST(RunMeasures, SpeaksOnlyOfCarsThatEnteredAfterTheWarmUp) {
   // Two crossings in the 0.2 s after the warm-up.
   EXPECT_NEAR(*figures.all.throughput_intersection_veh_per_h, 2.0 / 0.2 * 3600.0, 1e-6);
   EXPECT_NEAR(*figures.all.throughput_veh_per_h, 2.0 / 0.2 * 900.0, 1e-6);
+}
+
+TEST(RunMeasures, AveragesTheSizeOfTheAccelerationOverCarsAndSteps) {
+  Script script(0.1);
+  script.enter(0, true), script.enter(4);
+  script.next();
+  script.drive(0, 10.0, 15.0, CarState::kIn, 3.0), script.drive(4, 0.0, 15.0);  // the last step of the warm-up
+  script.next();
+  script.drive(0, 12.0, 15.0, CarState::kExit, -2.0), script.drive(4, 1.0, 15.0, CarState::kIn, 1.0);
+  script.next();
+  script.drive(4, 2.0, 15.0, CarState::kIn, -0.5);
+  script.next();
+  const RunFigures figures = script.measures().figures();
+  EXPECT_DOUBLE_EQ(*figures.all.mean_abs_acceleration_mps2, 3.5 / 3);
+  EXPECT_DOUBLE_EQ(*figures.equipped.mean_abs_acceleration_mps2, 2.0);
+  EXPECT_DOUBLE_EQ(*figures.unequipped.mean_abs_acceleration_mps2, 1.5 / 2);
 }
 
 TEST(RunMeasures, AveragesTheQueueOverStepsAndLanes) {
