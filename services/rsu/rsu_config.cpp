@@ -38,6 +38,7 @@ Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t
   config.station_id = kFirstStationId + rsu;
   config.road = {.approach_m = scenario.traffic().approach_length_m(), .exit_m = scenario.traffic().exit_length_m()};
   config.speed_limit_mps = scenario.vehicles().speed_limit_kmh() / 3.6;
+  config.acceleration_max_mps2 = scenario.vehicles().acceleration_max_mps2();
   config.radio = scenario::radio_parameters(scenario);
   config.algorithm = from.algorithm();
   // An RSU with another algorithm says nothing of this one: then its parameters stay at their defaults.

@@ -23,6 +23,7 @@ struct RsuConfig {
   RadioParameters radio;
   RoadLengths road;
   double speed_limit_mps = 0.0;
+  double acceleration_max_mps2 = 0.0;  ///< of every car
   std::string algorithm;
   AlgorithmParameters parameters;
 };

@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
 #include "common/scenario/scenario_steps.hpp"
 #include "services/lukou/control/run_client.hpp"
+#include "services/lukou/home.hpp"
 #include "services/lukou/launch/child.hpp"
 #include "services/lukou/launch/domain_claim.hpp"
 #include "services/lukou/launch/result_of_run.hpp"
@@ -36,6 +38,13 @@ std::optional<int> core_for(const RunRequest& request, int domain) {
     if (CPU_ISSET(static_cast<unsigned>(core), &ours)) cores.push_back(core);
   if (cores.empty()) return std::nullopt;
   return cores[static_cast<std::size_t>(domain) % cores.size()];
+}
+
+/// Where Python finds the module `lukou`, before what the user has set.
+std::string python_path() {
+  const char* set = std::getenv("PYTHONPATH");
+  const std::string ours = find_home().python.string();
+  return set == nullptr || *set == '\0' ? ours : ours + ":" + set;
 }
 
 /// One run of processes, from the first fork to the last exit.
@@ -100,6 +109,7 @@ class Session {
       } else {
         auto variables = environment;
         variables.push_back("LUKOU_RSU=" + index);
+        variables.push_back("PYTHONPATH=" + python_path());
         ChildSpec spec{
             .role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + request_.rsu}, .environment = variables};
         if (auto done = children_.start(spec); !done) return done;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/core/contract.hpp"
+#include "services/rsu/sdk/planning.hpp"
 
 namespace lukou {
 namespace {
@@ -19,8 +20,7 @@ constexpr int kBisections = 11;
 
 ArriveOnGreen::ArriveOnGreen(const ArriveOnGreenParameters& parameters) : parameters_(parameters) {
   LUKOU_EXPECT(parameters.acceleration_max_mps2 > 0.0 && parameters.gain_time_s > 0.0);
-  // Rounded down to a hundredth, the unit of the message, so that no car has to refuse it.
-  go_mps2_ = static_cast<double>(static_cast<int>(parameters.acceleration_max_mps2 * 100.0 + 1e-9)) / 100.0;
+  go_mps2_ = carriable_mps2(parameters.acceleration_max_mps2, parameters.acceleration_max_mps2);
 }
 
 void ArriveOnGreen::on_step(const RsuView& heard, RsuAnswer& answer) {
@@ -47,7 +47,7 @@ void ArriveOnGreen::guide_lane(const RsuView& heard, const LaneView& lane, RsuAn
       continue;
     }
     double crossing_s = std::max(earliest_s, before_s + p.headway_s);
-    const std::optional<Green> green = green_for(lane, crossing_s);
+    const std::optional<GreenWindow> green = green_at_or_after(lane, crossing_s, p.tail_s);
     if (!green) {  // no green is known that late
       before_s = crossing_s;
       release(car, answer);
@@ -73,19 +73,6 @@ void ArriveOnGreen::guide_lane(const RsuView& heard, const LaneView& lane, RsuAn
       release(car, answer);
     }
   }
-}
-
-std::optional<ArriveOnGreen::Green> ArriveOnGreen::green_for(const LaneView& lane, double crossing_s) const {
-  Aspect aspect = lane.aspect;
-  Step since = lane.aspect_since;
-  for (const SignalChange& change : lane.changes) {
-    const double end_s = time_s(change.step);
-    if (aspect == Aspect::kGreen && crossing_s <= end_s + parameters_.tail_s) return Green{time_s(since), end_s};
-    aspect = change.aspect;
-    since = change.step;
-  }
-  if (aspect == Aspect::kGreen) return Green{time_s(since), std::numeric_limits<double>::infinity()};
-  return std::nullopt;
 }
 
 std::optional<double> ArriveOnGreen::acceleration_for(const HeardCar& car, double final_mps,

@@ -35,15 +35,7 @@ class ArriveOnGreen final : public RsuAlgorithm {
   void on_step(const RsuView& heard, RsuAnswer& answer) override;
 
  private:
-  /// A green, begun or to come.
-  struct Green {
-    double begin_s;
-    double end_s;  ///< infinite if not known
-  };
-
   void guide_lane(const RsuView& heard, const LaneView& lane, RsuAnswer& answer);
-  /// The first green in which, its tail included, a car can cross at `crossing_s`.
-  [[nodiscard]] std::optional<Green> green_for(const LaneView& lane, double crossing_s) const;
   /// The acceleration that brings the car to the line in `time_to_line_s`; empty = it is late already.
   [[nodiscard]] std::optional<double> acceleration_for(const HeardCar& car, double final_mps,
                                                        double time_to_line_s) const;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "services/rsu/sdk/rsu_view.hpp"
+
+namespace lukou::python {
+
+/// A lane as a test writes it.
+struct LaneScript {
+  std::vector<HeardCar> cars;
+  Aspect aspect = Aspect::kRed;
+  Step aspect_since = 0;
+  std::vector<SignalChange> changes;
+};
+
+/// Holds what a scripted view points to.
+class ScriptedView {
+ public:
+  ScriptedView(const MapView& map, Step now, std::map<std::string, LaneScript> lanes) : lanes_(std::move(lanes)) {
+    view_.step = now;
+    view_.time_s = time_s(now);
+    view_.map = map;
+    for (auto& [lane_name, script] : lanes_) {
+      const auto lane = lane_named(lane_name);
+      if (!lane) throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
+      for (HeardCar& car : script.cars) car.lane = *lane;
+      view_.lanes[index(*lane)] = {.cars = script.cars,
+                                   .last_crossing_s = {},
+                                   .aspect = script.aspect,
+                                   .aspect_since = script.aspect_since,
+                                   .changes = script.changes};
+    }
+  }
+  [[nodiscard]] const RsuView& view() const { return view_; }
+
+ private:
+  std::map<std::string, LaneScript> lanes_;
+  RsuView view_;
+};
+
+}  // namespace lukou::python

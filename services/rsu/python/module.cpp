@@ -1,0 +1,281 @@
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "services/rsu/process/run_rsu.hpp"
+#include "services/rsu/python/lane_script.hpp"
+#include "services/rsu/sdk/planning.hpp"
+
+// The SDK for Python: the same words as in C++ (services/rsu/sdk), described for people in lukou.pyi. The loop stays in
+// C++; Python's lock is held during on_step alone.
+
+namespace py = pybind11;
+
+namespace lukou::python {
+namespace {
+
+/// A view is valid during on_step only; what Python keeps of it says so instead of reading what is gone.
+struct Frame {
+  const RsuView* view = nullptr;
+
+  [[nodiscard]] const RsuView& get() const {
+    if (view == nullptr) throw std::runtime_error("a view is valid during on_step only: copy what you keep");
+    return *view;
+  }
+};
+struct PyView {
+  std::shared_ptr<Frame> frame;
+};
+struct PyLane {
+  std::shared_ptr<Frame> frame;
+  std::size_t index = 0;
+
+  [[nodiscard]] const LaneView& get() const { return frame->get().lanes[index]; }
+};
+
+/// A column over the heard cars of all lanes, lane after lane, front to back.
+template <class Value, class Of>
+py::array_t<Value> column(const RsuView& view, Of of) {
+  std::size_t cars = 0;
+  for (const LaneView& lane : view.lanes) cars += lane.cars.size();
+  py::array_t<Value> values(static_cast<py::ssize_t>(cars));
+  Value* next = values.mutable_data();
+  for (std::size_t i = 0; i < view.lanes.size(); ++i) {
+    for (const HeardCar& car : view.lanes[i].cars) *next++ = of(i, car);
+  }
+  return values;
+}
+
+/// The heard cars as arrays of equal length.
+struct CarTable {
+  py::array_t<std::uint64_t> id;
+  py::array_t<std::uint8_t> lane;
+  py::array_t<double> distance_m, speed_mps, acceleration_mps2, age_s;
+
+  explicit CarTable(const RsuView& view)
+      : id(column<std::uint64_t>(view, [](auto, const HeardCar& car) { return static_cast<std::uint64_t>(car.id); })),
+        lane(column<std::uint8_t>(view, [](auto i, const HeardCar&) { return static_cast<std::uint8_t>(i); })),
+        distance_m(column<double>(view, [](auto, const HeardCar& car) { return car.distance_m; })),
+        speed_mps(column<double>(view, [](auto, const HeardCar& car) { return car.speed_mps; })),
+        acceleration_mps2(column<double>(view, [](auto, const HeardCar& car) { return car.acceleration_mps2; })),
+        age_s(column<double>(view, [](auto, const HeardCar& car) { return time_s(car.age); })) {}
+};
+
+void advise(RsuAnswer& answer, std::uint64_t car, double acceleration_mps2, double lifetime_s, Binding binding) {
+  answer.advise(static_cast<TemporaryId>(car), {.acceleration_mps2 = acceleration_mps2,
+                                                .lifetime = step_at_or_after(lifetime_s),
+                                                .binding = binding});
+}
+
+void advise_all(RsuAnswer& answer, const py::array_t<std::uint64_t, py::array::forcecast>& cars,
+                const py::array_t<double, py::array::forcecast>& accelerations_mps2, double lifetime_s,
+                Binding binding) {
+  if (cars.ndim() != 1 || accelerations_mps2.ndim() != 1 || cars.shape(0) != accelerations_mps2.shape(0)) {
+    throw std::invalid_argument("advise_all: takes two one-dimensional arrays of equal length");
+  }
+  for (py::ssize_t i = 0; i < cars.shape(0); ++i) {
+    advise(answer, cars.at(i), accelerations_mps2.at(i), lifetime_s, binding);
+  }
+}
+
+/// What a Python class inherits from.
+class PyAlgorithm : public RsuAlgorithm {
+ public:
+  void on_step(const RsuView& heard, RsuAnswer& answer) override {
+    const py::gil_scoped_acquire locked;
+    const auto frame = std::make_shared<Frame>(Frame{&heard});
+    const py::function method = py::get_override(static_cast<const RsuAlgorithm*>(this), "on_step");
+    if (!method) throw std::runtime_error("the RSU has no method on_step(self, heard, answer)");
+    struct Closer {
+      Frame& frame;
+      ~Closer() { frame.view = nullptr; }
+    } const closer{*frame};
+    method(PyView{frame}, py::cast(&answer, py::return_value_policy::reference));
+  }
+};
+
+/// Keeps the Python object alive for as long as C++ holds its algorithm.
+class Kept final : public RsuAlgorithm {
+ public:
+  explicit Kept(py::object object) : object_(std::move(object)), algorithm_(object_.cast<RsuAlgorithm*>()) {}
+  ~Kept() override {
+    const py::gil_scoped_acquire locked;
+    object_ = py::object();
+  }
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+
+  void on_step(const RsuView& heard, RsuAnswer& answer) override { algorithm_->on_step(heard, answer); }
+
+ private:
+  py::object object_;
+  RsuAlgorithm* algorithm_;
+};
+
+/// An exception of the algorithm leaves as itself, so that Python prints its traceback.
+int run(const py::function& make, std::vector<std::string> arguments) {
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const py::gil_scoped_release free;
+  return run_rsu_throwing(static_cast<int>(arguments.size()), argv.data(), [&](const RsuSetup& setup) {
+    const py::gil_scoped_acquire locked;
+    return std::unique_ptr<RsuAlgorithm>(std::make_unique<Kept>(make(setup)));
+  });
+}
+
+std::vector<RsuAnswer::Item> answer_of(RsuAlgorithm& algorithm, const RsuSetup& setup, double now_s,
+                                       const std::map<std::string, LaneScript>& lanes) {
+  ScriptedView scripted(setup.map, step_at_or_after(now_s), lanes);
+  RsuAnswer answer;
+  algorithm.on_step(scripted.view(), answer);
+  return answer.items();
+}
+
+}  // namespace
+
+PYBIND11_MODULE(lukou, m) {
+  m.doc() = "A roadside unit (RSU) for Lukou in Python: inherit from RsuAlgorithm, give the class to run_rsu().";
+
+  py::enum_<Binding>(m, "Binding").value("GUARD", Binding::kGuard).value("FOLLOWING", Binding::kFollowing);
+  py::enum_<Aspect>(m, "Aspect")
+      .value("RED", Aspect::kRed)
+      .value("YELLOW", Aspect::kYellow)
+      .value("GREEN", Aspect::kGreen);
+
+  py::class_<MapView>(m, "MapView")
+      .def_readonly("speed_limit_mps", &MapView::speed_limit_mps)
+      .def_readonly("approach_length_m", &MapView::approach_length_m);
+  py::class_<RsuSetup>(m, "RsuSetup")
+      .def(py::init([](std::uint32_t index, double speed_limit_mps, double approach_length_m,
+                       double acceleration_max_mps2) {
+             return RsuSetup{index, {speed_limit_mps, approach_length_m}, acceleration_max_mps2};
+           }),
+           py::kw_only(), py::arg("index") = 0, py::arg("speed_limit_mps"), py::arg("approach_length_m"),
+           py::arg("acceleration_max_mps2"))
+      .def_readonly("index", &RsuSetup::index)
+      .def_readonly("map", &RsuSetup::map)
+      .def_readonly("acceleration_max_mps2", &RsuSetup::acceleration_max_mps2);
+  py::class_<HeardCar>(m, "HeardCar")
+      .def(py::init([](std::uint64_t id, double distance_m, double speed_mps, double acceleration_mps2, double age_s) {
+             HeardCar car;
+             car.id = static_cast<TemporaryId>(id);
+             car.distance_m = distance_m;
+             car.speed_mps = speed_mps;
+             car.acceleration_mps2 = acceleration_mps2;
+             car.age = step_at_or_after(age_s);
+             return car;
+           }),
+           py::kw_only(), py::arg("id"), py::arg("distance_m"), py::arg("speed_mps"),
+           py::arg("acceleration_mps2") = 0.0, py::arg("age_s") = 0.0)
+      .def_property_readonly("id", [](const HeardCar& car) { return static_cast<std::uint64_t>(car.id); })
+      .def_property_readonly("lane", [](const HeardCar& car) { return std::string(name(car.lane)); })
+      .def_readonly("distance_m", &HeardCar::distance_m)
+      .def_readonly("speed_mps", &HeardCar::speed_mps)
+      .def_readonly("acceleration_mps2", &HeardCar::acceleration_mps2)
+      .def_property_readonly("age_s", [](const HeardCar& car) { return time_s(car.age); });
+  py::class_<GreenWindow>(m, "GreenWindow")
+      .def_readonly("begin_s", &GreenWindow::begin_s)
+      .def_readonly("end_s", &GreenWindow::end_s);
+  py::class_<QueueEstimate>(m, "QueueEstimate")
+      .def_readonly("cars", &QueueEstimate::cars)
+      .def_readonly("tail_m", &QueueEstimate::tail_m);
+  py::class_<PyLane>(m, "LaneView")
+      .def_property_readonly("name", [](const PyLane& lane) { return std::string(name(static_cast<Lane>(lane.index))); })
+      .def_property_readonly("cars",
+                             [](const PyLane& lane) {
+                               const auto cars = lane.get().cars;
+                               return std::vector<HeardCar>(cars.begin(), cars.end());
+                             })
+      .def_property_readonly("last_crossing_s", [](const PyLane& lane) { return lane.get().last_crossing_s; })
+      .def_property_readonly("aspect", [](const PyLane& lane) { return lane.get().aspect; })
+      .def_property_readonly("aspect_since_s", [](const PyLane& lane) { return time_s(lane.get().aspect_since); })
+      .def_property_readonly("changes",
+                             [](const PyLane& lane) {
+                               std::vector<std::pair<Aspect, double>> changes;
+                               for (const SignalChange& change : lane.get().changes) {
+                                 changes.emplace_back(change.aspect, time_s(change.step));
+                               }
+                               return changes;
+                             })
+      .def("green_windows", [](const PyLane& lane) { return green_windows(lane.get()); })
+      .def(
+          "green_at_or_after",
+          [](const PyLane& lane, double at_s, double tail_s) { return green_at_or_after(lane.get(), at_s, tail_s); },
+          py::arg("time_s"), py::arg("tail_s") = 0.0)
+      .def(
+          "standing_queue",
+          [](const PyLane& lane, double standing_mps) { return standing_queue(lane.get(), standing_mps); },
+          py::arg("standing_mps") = 5.0 / 3.6);
+  py::class_<CarTable>(m, "CarTable")
+      .def_readonly("id", &CarTable::id)
+      .def_readonly("lane", &CarTable::lane)
+      .def_readonly("distance_m", &CarTable::distance_m)
+      .def_readonly("speed_mps", &CarTable::speed_mps)
+      .def_readonly("acceleration_mps2", &CarTable::acceleration_mps2)
+      .def_readonly("age_s", &CarTable::age_s);
+  py::class_<PyView>(m, "RsuView")
+      .def_property_readonly("step", [](const PyView& view) { return view.frame->get().step; })
+      .def_property_readonly("time_s", [](const PyView& view) { return view.frame->get().time_s; })
+      .def_property_readonly("map", [](const PyView& view) { return view.frame->get().map; })
+      .def_property_readonly("cars", [](const PyView& view) { return CarTable(view.frame->get()); })
+      .def_property_readonly("lanes", [](const PyView& view) {
+        std::vector<PyLane> lanes;
+        for (std::size_t i = 0; i < view.frame->get().lanes.size(); ++i) lanes.push_back({view.frame, i});
+        return lanes;
+      });
+
+  py::class_<RsuAnswer::Item>(m, "Advice")
+      .def_property_readonly("car", [](const RsuAnswer::Item& item) { return static_cast<std::uint64_t>(item.car); })
+      .def_property_readonly("release", [](const RsuAnswer::Item& item) { return !item.advice.has_value(); })
+      .def_property_readonly("acceleration_mps2",
+                             [](const RsuAnswer::Item& item) {
+                               return item.advice ? std::optional(item.advice->acceleration_mps2) : std::nullopt;
+                             })
+      .def_property_readonly("lifetime_s",
+                             [](const RsuAnswer::Item& item) {
+                               return item.advice ? std::optional(time_s(item.advice->lifetime)) : std::nullopt;
+                             })
+      .def_property_readonly("binding", [](const RsuAnswer::Item& item) {
+        return item.advice ? std::optional(item.advice->binding) : std::nullopt;
+      });
+  py::class_<RsuAnswer>(m, "RsuAnswer")
+      .def("advise", &advise, py::arg("car"), py::arg("acceleration_mps2"), py::arg("lifetime_s") = 0.5,
+           py::arg("binding") = Binding::kGuard)
+      .def("advise_all", &advise_all, py::arg("cars"), py::arg("accelerations_mps2"), py::arg("lifetime_s") = 0.5,
+           py::arg("binding") = Binding::kGuard)
+      .def("release", [](RsuAnswer& answer, std::uint64_t car) { answer.release(static_cast<TemporaryId>(car)); });
+  py::class_<RsuAlgorithm, PyAlgorithm>(m, "RsuAlgorithm").def(py::init<>());
+
+  m.def("time_to_line_s", &time_to_line_s, py::arg("distance_m"), py::arg("speed_mps"), py::arg("acceleration_mps2"),
+        py::arg("cruise_mps"));
+  m.def("arrival_acceleration_mps2", &arrival_acceleration_mps2, py::arg("distance_m"), py::arg("speed_mps"),
+        py::arg("time_s"));
+  m.def("carriable_mps2", &carriable_mps2, py::arg("wanted_mps2"), py::arg("limit_mps2"));
+
+  py::class_<LaneScript>(m, "LaneScript")
+      .def(py::init([](std::vector<HeardCar> cars, Aspect aspect, double aspect_since_s,
+                       const std::vector<std::pair<Aspect, double>>& changes) {
+             LaneScript script{std::move(cars), aspect, step_at_or_after(aspect_since_s), {}};
+             for (const auto& [to, at_s] : changes) script.changes.push_back({to, step_at_or_after(at_s)});
+             return script;
+           }),
+           py::kw_only(), py::arg("cars") = std::vector<HeardCar>{}, py::arg("aspect") = Aspect::kRed,
+           py::arg("aspect_since_s") = 0.0, py::arg("changes") = std::vector<std::pair<Aspect, double>>{});
+  m.def("answer_of", &answer_of, py::arg("algorithm"), py::arg("setup"), py::kw_only(), py::arg("time_s") = 0.0,
+        py::arg("lanes"));
+  m.def(
+      "run_rsu",
+      [](const py::function& make) {
+        return run(make, py::module_::import("sys").attr("argv").cast<std::vector<std::string>>());
+      },
+      py::arg("make"));
+}
+
+}  // namespace lukou::python
