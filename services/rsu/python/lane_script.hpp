@@ -26,7 +26,8 @@ class ScriptedView {
     view_.map = map;
     for (auto& [lane_name, script] : lanes_) {
       const auto lane = lane_named(lane_name);
-      if (!lane) throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
+      if (!lane)
+        throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
       for (HeardCar& car : script.cars) car.lane = *lane;
       view_.lanes[index(*lane)] = {.cars = script.cars,
                                    .last_crossing_s = {},

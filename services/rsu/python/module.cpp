@@ -68,9 +68,8 @@ struct CarTable {
 };
 
 void advise(RsuAnswer& answer, std::uint64_t car, double acceleration_mps2, double lifetime_s, Binding binding) {
-  answer.advise(static_cast<TemporaryId>(car), {.acceleration_mps2 = acceleration_mps2,
-                                                .lifetime = step_at_or_after(lifetime_s),
-                                                .binding = binding});
+  answer.advise(static_cast<TemporaryId>(car),
+                {.acceleration_mps2 = acceleration_mps2, .lifetime = step_at_or_after(lifetime_s), .binding = binding});
 }
 
 void advise_all(RsuAnswer& answer, const py::array_t<std::uint64_t, py::array::forcecast>& cars,
@@ -153,10 +152,10 @@ PYBIND11_MODULE(lukou, m) {
       .def_readonly("speed_limit_mps", &MapView::speed_limit_mps)
       .def_readonly("approach_length_m", &MapView::approach_length_m);
   py::class_<RsuSetup>(m, "RsuSetup")
-      .def(py::init([](std::uint32_t index, double speed_limit_mps, double approach_length_m,
-                       double acceleration_max_mps2) {
-             return RsuSetup{index, {speed_limit_mps, approach_length_m}, acceleration_max_mps2};
-           }),
+      .def(py::init(
+               [](std::uint32_t index, double speed_limit_mps, double approach_length_m, double acceleration_max_mps2) {
+                 return RsuSetup{index, {speed_limit_mps, approach_length_m}, acceleration_max_mps2};
+               }),
            py::kw_only(), py::arg("index") = 0, py::arg("speed_limit_mps"), py::arg("approach_length_m"),
            py::arg("acceleration_max_mps2"))
       .def_readonly("index", &RsuSetup::index)
@@ -187,7 +186,8 @@ PYBIND11_MODULE(lukou, m) {
       .def_readonly("cars", &QueueEstimate::cars)
       .def_readonly("tail_m", &QueueEstimate::tail_m);
   py::class_<PyLane>(m, "LaneView")
-      .def_property_readonly("name", [](const PyLane& lane) { return std::string(name(static_cast<Lane>(lane.index))); })
+      .def_property_readonly("name",
+                             [](const PyLane& lane) { return std::string(name(static_cast<Lane>(lane.index))); })
       .def_property_readonly("cars",
                              [](const PyLane& lane) {
                                const auto cars = lane.get().cars;

@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tests/system/program.hpp"
+
+namespace lukou::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kPython = "/usr/bin/python3";
+
+Finished finished(Program&& program, double limit_s = 120.0) {
+  Finished end;
+  end.code = program.wait(limit_s);
+  end.out = program.out();
+  end.err = program.err();
+  return end;
+}
+
+/// Lukou as `cmake --install` leaves it, and a folder of a user, both away from the sources.
+class OwnRsu : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    home_ = std::make_unique<TemporaryFolder>();
+    const Finished installed =
+        finished(Program({"--install", LUKOU_BUILD, "--prefix", prefix()}, {}, "/usr/bin/cmake"));
+    ASSERT_EQ(installed.code, 0) << installed.out << installed.err;
+  }
+  static void TearDownTestSuite() { home_.reset(); }
+
+  static std::string prefix() { return (*home_ / "prefix").string(); }
+  /// In the user's folder, with the installed programs first in the path and no scenarios but theirs.
+  static Finished shell(const std::string& command, double limit_s = 120.0) {
+    return finished(Program({"-c", "cd '" + (*home_ / "").string() + "' && " + command},
+                            {"PATH=" + prefix() + "/bin:/usr/bin:/bin", "LUKOU_SCENARIOS="}, "/bin/sh"),
+                    limit_s);
+  }
+  /// Writes a Python RSU whose on_step() does nothing before step 100 and then `body`.
+  static void write_python(const std::string& name, const std::string& body) {
+    std::ofstream file(*home_ / name);
+    file << "import os, sys, time\nimport numpy as np\nimport lukou\n\n"
+            "class Rsu(lukou.RsuAlgorithm):\n"
+            "    def __init__(self, setup):\n        super().__init__()\n"
+            "    def on_step(self, heard, answer):\n        if heard.step >= 100:\n            "
+         << body << "\n\nsys.exit(lukou.run_rsu(Rsu))\n";
+  }
+  static Finished run_python(const std::string& name, const std::string& body, const std::string& more = "") {
+    write_python(name + ".py", body);
+    return shell("lukou run paper --duration 60 --quiet --json --out " + name + " --rsu '" + kPython + " " + name +
+                 ".py' " + more);
+  }
+  static void expect_sound(const std::string& folder, long long least_step) {
+    const Finished inspection = shell("lukou inspect " + folder);
+    EXPECT_EQ(inspection.code, 0) << inspection.out;
+    const auto at = inspection.out.find("complete to step ");
+    ASSERT_NE(at, std::string::npos) << inspection.out;
+    EXPECT_GE(std::atoll(inspection.out.c_str() + at + 17), least_step);
+  }
+
+ private:
+  static std::unique_ptr<TemporaryFolder> home_;
+};
+
+std::unique_ptr<TemporaryFolder> OwnRsu::home_;
+
+TEST_F(OwnRsu, BuildsTestsAndRunsOutsideTheSourcesAndItsPythonTwinGivesTheSameBytes) {
+  const Finished made = shell("lukou new rsu mine && lukou new rsu twin --lang python");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const Finished built = shell("cd mine && cmake -B build && cmake --build build && ctest --test-dir build", 300.0);
+  ASSERT_EQ(built.code, 0) << built.out << built.err;
+  const Finished tested = shell("cd twin && PYTHONPATH=" + prefix() + "/" LUKOU_LIBRARY_FOLDER "/lukou/python " +
+                                kPython + " twin_test.py");
+  EXPECT_EQ(tested.code, 0) << tested.err;
+
+  const Finished mine = shell("lukou run paper --duration 300 --quiet --rsu ./mine/build/mine --out a");
+  ASSERT_EQ(mine.code, 0) << mine.err;
+  const Finished twin =
+      shell(std::string("lukou run paper --duration 300 --quiet --rsu '") + kPython + " twin/twin.py' --out b");
+  ASSERT_EQ(twin.code, 0) << twin.err;
+  EXPECT_EQ(shell("for file in car stop road stop_time; do cmp a/$file.csv b/$file.csv; done && cmp a/summary.json "
+                  "b/summary.json")
+                .code,
+            0);
+  const json summary = json::parse(shell("cat a/summary.json").out);
+  EXPECT_GT(summary.at("advice_applied").get<int>(), 0);
+
+  // The formula that the README tells to change: later at the line.
+  EXPECT_EQ(shell("sed -i 's/AFTER_GREEN_S = 2.0/AFTER_GREEN_S = 6.0/' twin/twin.py").code, 0);
+  EXPECT_EQ(
+      shell(std::string("lukou run paper --duration 300 --quiet --rsu '") + kPython + " twin/twin.py' --out c").code,
+      0);
+  EXPECT_NE(shell("cmp a/car.csv c/car.csv").code, 0);
+}
+
+TEST_F(OwnRsu, ThatThrowsEndsTheRunWithItsTraceback) {
+  const Finished run = run_python("throws", "raise ValueError('out of ideas')");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("Traceback"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("ValueError: out of ideas"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("rsu0"), std::string::npos) << run.err;
+  expect_sound("throws", 99);
+}
+
+TEST_F(OwnRsu, ThatExitsEndsTheRun) {
+  const Finished run = run_python("exits", "os._exit(0)");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("rsu0"), std::string::npos) << run.err;
+  expect_sound("exits", 99);
+}
+
+TEST_F(OwnRsu, ThatHangsIsReportedAsStalled) {
+  const Finished run = run_python("hangs", "time.sleep(1000)", "--stall-limit 2");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("rsu0 has not finished"), std::string::npos) << run.err;
+  expect_sound("hangs", 99);
+}
+
+TEST_F(OwnRsu, ThatSaysImpossibleThingsIsRefusedWithTheReason) {
+  // Each step from 100 to 600 one advice that is no number, one beyond every message, one for nobody.
+  const Finished run = run_python("nonsense", "[answer.advise(7, a) for a in (float('nan'), 1e9, -0.5)]");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const json refused = json::parse(run.out).at("summary").at("advice_refused");
+  EXPECT_EQ(refused.at("malformed"), 2 * 500);
+  EXPECT_EQ(refused.at("unknown_vehicle"), 500);
+}
+
+TEST_F(OwnRsu, ThatSaysAMillionThingsAtOnceIsHeardOut) {
+  const Finished run = run_python(
+      "flood", "heard.step == 100 and answer.advise_all(np.arange(1000000, dtype=np.uint64), np.zeros(1000000))");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(json::parse(run.out).at("summary").at("advice_refused").at("unknown_vehicle"), 1'000'000);
+}
+
+TEST_F(OwnRsu, KeepsNoViewBeyondItsStep) {
+  const Finished run = run_python("keeps", "Rsu.kept = getattr(Rsu, 'kept', heard); Rsu.kept.time_s");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("a view is valid during on_step only"), std::string::npos) << run.err;
+}
+
+TEST_F(OwnRsu, NeedsAPlainNameAndAFreePlace) {
+  const Finished odd = shell("lukou new rsu My-Rsu");
+  EXPECT_EQ(odd.code, 2);
+  EXPECT_NE(odd.err.find("small letters"), std::string::npos) << odd.err;
+  ASSERT_EQ(shell("lukou new rsu taken").code, 0);
+  const Finished again = shell("lukou new rsu taken");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("is there already"), std::string::npos) << again.err;
+}
+
+}  // namespace
+}  // namespace lukou::test
