@@ -131,8 +131,19 @@ inline constexpr std::int64_t kSecondMarkMax = 59'999;
 inline constexpr std::int64_t kMinuteMax = 527'039;
 inline constexpr std::int64_t kSpeedMax = 8190;
 inline constexpr double kSpeedUnitsPerMps = 50.0;
+inline constexpr std::int64_t kSpeedUnavailable = 8191;
+inline constexpr std::int64_t kHeadingUnavailable = 28'800;
 inline constexpr std::int64_t kAccelerationMax = 2000;
 inline constexpr std::int64_t kOffsetMax = 8'388'607;
+
+/// The field's integer: saturated to [0, 8190], 8191 for nothing and for what is not a number.
+std::int64_t speed_units(const std::optional<double>& speed_mps);
+/// Empty for 8191. Requires [0, 8191].
+std::optional<double> speed_mps(std::int64_t units);
+/// The field's integer in [0, 28799], a full turn is north again; 28800 for nothing and for what is beyond a turn.
+std::int64_t heading_units(const std::optional<double>& heading_rad);
+/// Empty for 28800. Requires [0, 28800].
+std::optional<double> heading_rad(std::int64_t units);
 
 /// A Position3D or PositionOffset as it came.
 struct RawPosition {
