@@ -54,7 +54,8 @@ std::optional<CarReport> report_of(const BasicSafety& message, Step now) {
                              .heading_rad = *message.heading_rad,
                              .length_m = message.length_m},
                    .speed_mps = *message.speed_mps,
-                   .acceleration_mps2 = message.acceleration_mps2.value_or(0.0)};
+                   .acceleration_mps2 = message.acceleration_mps2.value_or(0.0),
+                   .accuracy_m = message.accuracy_m};
 }
 
 }  // namespace

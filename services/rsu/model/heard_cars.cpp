@@ -56,7 +56,8 @@ void HeardCars::arrange(Step now) {
                                                  .distance_m = entry.place.distance_m,
                                                  .speed_mps = entry.report.speed_mps,
                                                  .acceleration_mps2 = entry.report.acceleration_mps2,
-                                                 .age = std::max<Step>(0, now - entry.report.made)});
+                                                 .age = std::max<Step>(0, now - entry.report.made),
+                                                 .accuracy_m = entry.report.accuracy_m});
   }
   for (auto& lane : by_lane_) {
     std::ranges::sort(lane, {}, [](const HeardCar& car) { return std::tuple(car.distance_m, car.id); });

@@ -17,6 +17,7 @@ struct CarReport {
   ReportedPlace place;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
+  std::optional<double> accuracy_m;  ///< of the place, one standard deviation
 };
 
 /// The cars on the approaches as their messages tell, and when they crossed their stop lines.

@@ -21,7 +21,8 @@ struct HeardCar {
   double distance_m = 0.0;  ///< of its front to the stop line, > 0
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
-  Step age = 0;  ///< steps since the message was made, by the car's clock; 0 = it tells of now
+  Step age = 0;                      ///< steps since the message was made, by the car's clock; 0 = it tells of now
+  std::optional<double> accuracy_m;  ///< of its position as its unit tells, one standard deviation; empty: it does not
 };
 
 /// A car on an approach as a roadside sensor tells of it and as the RSU's map matching places it. It may have a unit or

@@ -171,6 +171,13 @@ TEST(RsuNodeErrors, TakesAMarkOfTheNearFutureForNow) {
   }
 }
 
+TEST(RsuNodeErrors, TellsHowAccurateACarTakesItsPositionToBe) {
+  BasicSafety message = car_on_the_road(5, 0.0);
+  EXPECT_FALSE(heard_of(message, 5).at(0).accuracy_m);
+  message.accuracy_m = 1.5;
+  EXPECT_NEAR(heard_of(message, 5).at(0).accuracy_m.value(), 1.5, 1e-9);
+}
+
 TEST(RsuNodeErrors, KnowsNoCarWhosePositionIsOffTheRoad) {
   for (const PlanePoint centre : {PlanePoint{-215.5, 40.0}, {-215.5, -11.0}, {9000.0, 0.0}, {-800.0, -5.25}}) {
     BasicSafety message = car_on_the_road(5, 0.0);
