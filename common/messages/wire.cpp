@@ -1,33 +1,6 @@
 #include "common/messages/wire.hpp"
 
-#include "common/core/math.hpp"
-
 namespace lukou::wire {
-namespace {
-
-constexpr double kHeadingUnitsPerRad = 80.0 * 180.0 / math::kPi;
-
-}  // namespace
-
-std::int64_t speed_units(const std::optional<double>& speed_mps) {
-  return speed_mps ? to_units(*speed_mps, kSpeedUnitsPerMps, 0, kSpeedMax, kSpeedUnavailable) : kSpeedUnavailable;
-}
-
-std::optional<double> speed_mps(std::int64_t units) {
-  if (units == kSpeedUnavailable) return std::nullopt;
-  return static_cast<double>(units) / kSpeedUnitsPerMps;
-}
-
-std::int64_t heading_units(const std::optional<double>& heading_rad) {
-  if (!heading_rad) return kHeadingUnavailable;
-  const std::int64_t units = to_units(*heading_rad, kHeadingUnitsPerRad, 0, kHeadingUnavailable, kHeadingUnavailable);
-  return units == kHeadingUnavailable && *heading_rad <= 2 * math::kPi ? 0 : units;
-}
-
-std::optional<double> heading_rad(std::int64_t units) {
-  if (units == kHeadingUnavailable) return std::nullopt;
-  return static_cast<double>(units) / kHeadingUnitsPerRad;
-}
 
 void Writer::fixed64_field(std::uint32_t field, std::uint64_t value) {
   varint(fixed64_key(field));
