@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/lockstep/edge.hpp"
@@ -50,11 +51,12 @@ class HoldBehindSensed final : public RsuAlgorithm {
 
 class Intersection {
  public:
-  explicit Intersection(const std::vector<std::string>& sets)
+  explicit Intersection(const std::vector<std::string>& sets, std::unique_ptr<RsuAlgorithm> algorithm = nullptr)
       : scenario_(scenario::load_text("", "test", "/", sets).value()),
         controller_(scenario::signal_plan(scenario_).value(), kPromise),
         engine_(engine_config(scenario_).value()),
-        rsu_(rsu_config(scenario_.message(), 0).value(), std::make_unique<HoldBehindSensed>(seen_)) {}
+        rsu_(rsu_config(scenario_.message(), 0).value(),
+             algorithm ? std::move(algorithm) : std::make_unique<HoldBehindSensed>(seen_)) {}
 
   void step() {
     SignalBatch batch;
@@ -122,6 +124,15 @@ TEST(SensingPath, ShowsEveryCarOfTheApproachesWhoeverHasAUnit) {
   }
   EXPECT_GT(sensed, 50'000U);
   EXPECT_LT(heard, sensed / 3);  // a fifth has a unit
+}
+
+TEST(SensingPath, LeavesTheTrafficAloneUnderAnAlgorithmThatDoesNotLook) {
+  Intersection plain({"vehicles.equipped_ratio=0.5"}, make_algorithm("arrive_on_green", {}).value());
+  Intersection sensing(perfect_sensors("0.5"), make_algorithm("arrive_on_green", {}).value());
+  for (Step k = 0; k < 1500; ++k) {
+    plain.step(), sensing.step();
+    ASSERT_EQ(plain.traffic().position_m, sensing.traffic().position_m) << k;
+  }
 }
 
 TEST(SensingPath, LetsAnAlgorithmGuideByWhatIsSensed) {
