@@ -60,6 +60,19 @@ TEST(Sensors, ReadTheirCanonicalTextBackToTheSameText) {
   EXPECT_EQ(second.value().message().vehicles().clock_offset_ms(), 5.0);
 }
 
+TEST(Sensors, AreToldInOneLineEach) {
+  const auto result = loaded(
+      "rsus {} rsus { sensors { approach: WEST kind: RADAR from_m: 20 to_m: 120 miss_rate: 0.05 position_noise_m: 0.5 "
+      "latency_ms: 80 } sensors { approach: EAST } }");
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(sensor_lines(result.value()),
+            (std::vector<std::string>{
+                "rsus[1].sensors[0]: RADAR, WEST, 20 to 120 m before the line; misses 5 %, errs by 0.5 m and 0 m/s, "
+                "late by 80 ms",
+                "rsus[1].sensors[1]: CAMERA, EAST, 0 to 150 m before the line; misses 0 %, errs by 0 m and 0 m/s, late "
+                "by 0 ms"}));
+}
+
 struct Bad {
   const char* text;
   const char* error;
