@@ -2,6 +2,18 @@
 
 namespace lukou {
 
+bool SensedColumns::well_formed() const {
+  const std::size_t rows = rsu.size();
+  return sensor.size() == rows && track.size() == rows && x_m.size() == rows && y_m.size() == rows &&
+         speed_mps.size() == rows && heading_rad.size() == rows && length_class.size() == rows &&
+         measured.size() == rows;
+}
+
+void SensedColumns::clear() {
+  rsu.clear(), sensor.clear(), track.clear(), x_m.clear(), y_m.clear();
+  speed_mps.clear(), heading_rad.clear(), length_class.clear(), measured.clear();
+}
+
 void TrafficBatch::clear() {
   // Keeps the storage: steady steps allocate nothing.
   const auto empty = [](auto&... columns) { (columns.clear(), ...); };

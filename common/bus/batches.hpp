@@ -13,10 +13,33 @@
 
 namespace lukou {
 
-/// Engine to RSUs: what the vehicles sent at t_step.
+/// How long a sensor takes a vehicle to be; the values stand on the bus. Limits assumed.
+enum class LengthClass : std::uint8_t { kShort = 1, kMedium = 2, kLong = 3 };  ///< below 6 m, to 12 m, longer
+
+/// What the roadside sensors report, a row per detection. It comes over a wire, not over the radio. A row knows no
+/// vehicle, unit or lane; it is in the order of RSU, sensor, step, track.
+struct SensedColumns {
+  std::vector<std::uint32_t> rsu;     ///< whose sensor: index in the scenario's list
+  std::vector<std::uint32_t> sensor;  ///< index in that RSU's list
+  std::vector<std::uint32_t> track;   ///< drawn; the same as long as this sensor follows this car
+  std::vector<double> x_m;            ///< centre of the car's front, with the sensor's error
+  std::vector<double> y_m;
+  std::vector<double> speed_mps;           ///< with the sensor's error, >= 0
+  std::vector<double> heading_rad;         ///< clockwise from north; that of the approach
+  std::vector<std::uint8_t> length_class;  ///< LengthClass
+  std::vector<Step> measured;              ///< the step whose instant it tells of
+
+  [[nodiscard]] std::size_t size() const { return rsu.size(); }
+  /// Whether all columns have the same length.
+  [[nodiscard]] bool well_formed() const;
+  void clear();
+};
+
+/// Engine to RSUs: what the vehicles sent at t_step, and what roadside sensors delivered then.
 struct AirBatch {
   Step step = 0;
   Frames frames;
+  SensedColumns sensed;
 };
 
 /// RSU to engine and signal controller: what the roadside sent at t_step.

@@ -43,6 +43,14 @@ void frames_columns(Plain& plain, Sample& sample, Move move) {
 }
 
 template <class Plain, class Sample, class Move>
+void sensed_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.rsu, sample.rsu), move(plain.sensor, sample.sensor), move(plain.track, sample.track);
+  move(plain.x_m, sample.x_m), move(plain.y_m, sample.y_m), move(plain.speed_mps, sample.speed_mps);
+  move(plain.heading_rad, sample.heading_rad), move(plain.length_class, sample.length_class);
+  move(plain.measured, sample.measured_step);
+}
+
+template <class Plain, class Sample, class Move>
 void reception_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.direction, sample.direction), move(plain.kind, sample.kind), move(plain.sent, sample.sent);
   move(plain.heard, sample.heard), move(plain.lost_random, sample.lost_random);
@@ -89,11 +97,13 @@ constexpr auto kCopy = [](auto& column, const auto& sequence) { copy_column(sequ
 void lend(const AirBatch& batch, lukou_bus_Air& sample, Scratch&) {
   sample.step = batch.step;
   frames_columns(batch.frames, sample.frames, kLend);
+  sensed_columns(batch.sensed, sample.sensed, kLend);
 }
 
 void copy(const lukou_bus_Air& sample, AirBatch& batch) {
   batch.step = sample.step;
   frames_columns(batch.frames, sample.frames, kCopy);
+  sensed_columns(batch.sensed, sample.sensed, kCopy);
 }
 
 void lend(const RoadsideBatch& batch, lukou_bus_Roadside& sample, Scratch&) {

@@ -21,7 +21,16 @@ enum class Purpose : std::uint16_t {
   kRadioLoss = 12,           ///< independent loss
   kRadioBurst = 13,          ///< transition between the states of a bursty link
   kRadioDuplicate = 14,      ///< whether a frame is heard twice
-  kTest = 100,               ///< tests
+  // Roadside sensors: entity = vehicle, index = number of the sensor * 2^32 + step.
+  kSensorMiss = 25,     ///< whether a step misses the car
+  kSensorAlong = 26,    ///< error of the position along the lane
+  kSensorAcross = 27,   ///< error of the position across the lane
+  kSensorSpeed = 28,    ///< error of the speed
+  kSensorTrack = 29,    ///< number under which a sensor follows a car, step = 0
+  kPositionBias = 30,   ///< constant error of a unit's position, index = axis
+  kPositionNoise = 31,  ///< innovation of the error that wanders, index = 2 * step + axis
+  kUnitClock = 32,      ///< constant offset of a unit's clock
+  kTest = 100,          ///< tests
 };
 
 /// A draw is a pure function of its key: neither order nor other draws can change it.

@@ -12,9 +12,6 @@ using wire::message_key;
 using wire::to_units;
 using wire::varint_key;
 
-constexpr std::int64_t kSpeedUnavailable = 8191;
-constexpr std::int64_t kHeadingUnavailable = 28'800;
-constexpr double kHeadingUnitsPerRad = 80.0 * 180.0 / math::kPi;
 constexpr std::int64_t kAccelerationUnavailable = 2001;
 constexpr std::int64_t kForwardGears = 2;
 constexpr std::int64_t kPassengerCar = 10;
@@ -23,8 +20,14 @@ constexpr std::int64_t kPedalOn = 2;
 
 // UPER of the message of a unit that is equipped as usual, in bits: frame 4; presence 8; count 7; id 64; second 16;
 // position with elevation 80; confidence of time 6 and position 5; gear 3; speed 13; heading 15; accelerations 48;
-// all states of the brakes 24; size 23; class 10. Together 326 bits.
-constexpr std::uint32_t kWireBytes = (326 + 7) / 8;
+// all states of the brakes 24; size 23; class 10. Together 326 bits. Accuracy, where there is one: 32.
+constexpr std::uint32_t kWireBits = 326;
+constexpr std::uint32_t kAccuracyBits = 32;
+
+constexpr double kAccuracyUnitsPerM = 20.0;
+constexpr std::int64_t kAccuracyMax = 254;
+constexpr std::int64_t kAccuracyUnavailable = 255;
+constexpr std::int64_t kOrientationUnavailable = 65'535;
 
 struct Raw {
   std::int64_t count = kAbsent;
@@ -42,6 +45,10 @@ struct Raw {
   std::int64_t width_cm = kAbsent;
   std::int64_t length_cm = kAbsent;
   std::int64_t vehicle_class = kAbsent;
+  std::int64_t semi_major = kAbsent;
+  std::int64_t semi_minor = kAbsent;
+  std::int64_t orientation = kAbsent;
+  bool has_accuracy = false;
 };
 
 void read_brakes(std::span<const std::uint8_t> bytes, Raw& raw) {
@@ -58,6 +65,17 @@ void read_size(std::span<const std::uint8_t> bytes, Raw& raw) {
   while (reader.next()) {
     if (reader.field() == varint_key(1)) raw.width_cm = reader.value();
     if (reader.field() == varint_key(2)) raw.length_cm = reader.value();
+  }
+  raw.broken = raw.broken || reader.broken();
+}
+
+void read_accuracy(std::span<const std::uint8_t> bytes, Raw& raw) {
+  raw.has_accuracy = true;
+  wire::Reader reader(bytes);
+  while (reader.next()) {
+    if (reader.field() == varint_key(1)) raw.semi_major = reader.value();
+    if (reader.field() == varint_key(2)) raw.semi_minor = reader.value();
+    if (reader.field() == varint_key(3)) raw.orientation = reader.value();
   }
   raw.broken = raw.broken || reader.broken();
 }
@@ -100,6 +118,9 @@ Raw read(std::span<const std::uint8_t> payload) {
       case varint_key(11):
         raw.vehicle_class = reader.value();
         break;
+      case message_key(12):
+        read_accuracy(reader.message(), raw);
+        break;
       default:
         break;  // a later edition's field
     }
@@ -113,15 +134,6 @@ Raw read(std::span<const std::uint8_t> payload) {
 void append(Frames& frames, const Envelope& envelope, const BasicSafety& message) {
   LUKOU_EXPECT(message.count <= wire::kCountMax && message.second_mark_ms <= wire::kSecondMarkMax);
   const GeoPoint position = to_geo(message.centre);
-  const std::int64_t speed =
-      message.speed_mps ? to_units(*message.speed_mps, wire::kSpeedUnitsPerMps, 0, wire::kSpeedMax, kSpeedUnavailable)
-                        : kSpeedUnavailable;
-  std::int64_t heading = kHeadingUnavailable;
-  if (message.heading_rad) {
-    heading = to_units(*message.heading_rad, kHeadingUnitsPerRad, 0, kHeadingUnavailable, kHeadingUnavailable);
-    // What rounds to a full turn is north again; beyond it, or not a number: unavailable.
-    if (heading == kHeadingUnavailable && *message.heading_rad <= 2 * math::kPi) heading = 0;
-  }
   const std::int64_t acceleration = message.acceleration_mps2
                                         ? to_units(*message.acceleration_mps2, 100.0, -wire::kAccelerationMax,
                                                    wire::kAccelerationMax, kAccelerationUnavailable)
@@ -134,8 +146,8 @@ void append(Frames& frames, const Envelope& envelope, const BasicSafety& message
   writer.unsigned_field(3, message.second_mark_ms);
   wire::write_position(writer, 4, position.latitude_e7, position.longitude_e7);
   writer.unsigned_field(5, unsigned_value(kForwardGears));
-  writer.unsigned_field(6, unsigned_value(speed));
-  writer.unsigned_field(7, unsigned_value(heading));
+  writer.unsigned_field(6, unsigned_value(wire::speed_units(message.speed_mps)));
+  writer.unsigned_field(7, unsigned_value(wire::heading_units(message.heading_rad)));
   wire::write_acceleration(writer, 8, acceleration);
   const std::size_t brakes = writer.open(9);
   writer.unsigned_field(1, unsigned_value(message.braking ? kPedalOn : kPedalOff));
@@ -145,7 +157,18 @@ void append(Frames& frames, const Envelope& envelope, const BasicSafety& message
   writer.unsigned_field(2, unsigned_value(to_units(message.length_m, 100.0, 0, 4095, 0)));
   writer.close(size);
   writer.unsigned_field(11, unsigned_value(kPassengerCar));
-  wire::finish_frame(frames, envelope, FrameKind::kBsm, kWireBytes);
+  std::uint32_t bits = kWireBits;
+  if (message.accuracy_m) {
+    const std::uint64_t axis =
+        unsigned_value(to_units(*message.accuracy_m, kAccuracyUnitsPerM, 0, kAccuracyMax, kAccuracyUnavailable));
+    const std::size_t accuracy = writer.open(12);
+    writer.unsigned_field(1, axis);
+    writer.unsigned_field(2, axis);
+    writer.unsigned_field(3, unsigned_value(kOrientationUnavailable));
+    writer.close(accuracy);
+    bits += kAccuracyBits;
+  }
+  wire::finish_frame(frames, envelope, FrameKind::kBsm, (bits + 7) / 8);
 }
 
 Expected<BasicSafety> decode_bsm(std::span<const std::uint8_t> payload) {
@@ -157,8 +180,8 @@ Expected<BasicSafety> decode_bsm(std::span<const std::uint8_t> payload) {
   check.required("second_mark_ms", raw.second_mark_ms, 0, wire::kSecondMarkMax);
   wire::check_position(check, "position", raw.position);
   check.required("transmission", raw.transmission, 0, 7);
-  check.required("speed_2cmps", raw.speed, 0, kSpeedUnavailable);
-  check.required("heading_80th_deg", raw.heading, 0, kHeadingUnavailable);
+  check.required("speed_2cmps", raw.speed, 0, wire::kSpeedUnavailable);
+  check.required("heading_80th_deg", raw.heading, 0, wire::kHeadingUnavailable);
   check.required("acceleration.longitudinal_cmps2", raw.acceleration, -wire::kAccelerationMax,
                  kAccelerationUnavailable);
   check.that("brakes", raw.has_brakes);
@@ -166,6 +189,11 @@ Expected<BasicSafety> decode_bsm(std::span<const std::uint8_t> payload) {
   check.required("size.width_cm", raw.width_cm, 0, 1023);
   check.required("size.length_cm", raw.length_cm, 0, 4095);
   check.required("vehicle_class", raw.vehicle_class, 0, 255);
+  if (raw.has_accuracy) {
+    check.required("accuracy.semi_major_5cm", raw.semi_major, 0, kAccuracyUnavailable);
+    check.required("accuracy.semi_minor_5cm", raw.semi_minor, 0, kAccuracyUnavailable);
+    check.required("accuracy.orientation", raw.orientation, 0, kOrientationUnavailable);
+  }
   if (!check.ok()) return check.error("BSM");
   const auto centre = to_plane(
       {static_cast<std::int32_t>(raw.position.latitude_e7), static_cast<std::int32_t>(raw.position.longitude_e7)});
@@ -176,16 +204,17 @@ Expected<BasicSafety> decode_bsm(std::span<const std::uint8_t> payload) {
   message.count = static_cast<std::uint8_t>(raw.count);
   message.second_mark_ms = static_cast<std::uint16_t>(raw.second_mark_ms);
   message.centre = *centre;
-  if (raw.speed != kSpeedUnavailable) message.speed_mps = static_cast<double>(raw.speed) / wire::kSpeedUnitsPerMps;
-  if (raw.heading != kHeadingUnavailable) {
-    message.heading_rad = static_cast<double>(raw.heading) / kHeadingUnitsPerRad;
-  }
+  message.speed_mps = wire::speed_mps(raw.speed);
+  message.heading_rad = wire::heading_rad(raw.heading);
   if (raw.acceleration != kAccelerationUnavailable) {
     message.acceleration_mps2 = static_cast<double>(raw.acceleration) / 100.0;
   }
   message.braking = raw.pedal == kPedalOn;
   message.width_m = static_cast<double>(raw.width_cm) / 100.0;
   message.length_m = static_cast<double>(raw.length_cm) / 100.0;
+  if (raw.has_accuracy && raw.semi_major != kAccuracyUnavailable) {
+    message.accuracy_m = static_cast<double>(raw.semi_major) / kAccuracyUnitsPerM;
+  }
   return message;
 }
 

@@ -22,6 +22,7 @@ struct BasicSafety {
   bool braking = false;                     ///< the brake pedal is pressed
   double width_m = 0.0;                     ///< [0, 10.23], unit 0.01; 0 = unavailable
   double length_m = 0.0;                    ///< [0, 40.95], unit 0.01; 0 = unavailable
+  std::optional<double> accuracy_m;         ///< semi-major axis, one standard deviation, [0, 12.7], unit 0.05
 };
 
 /// Appends a frame. Values beyond a field's range saturate; a value that is not a number, a heading beyond a turn or a

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/core/expected.hpp"
+#include "common/core/math.hpp"
 #include "common/messages/frames.hpp"
 #include "common/messages/plane.hpp"
 
@@ -131,8 +132,33 @@ inline constexpr std::int64_t kSecondMarkMax = 59'999;
 inline constexpr std::int64_t kMinuteMax = 527'039;
 inline constexpr std::int64_t kSpeedMax = 8190;
 inline constexpr double kSpeedUnitsPerMps = 50.0;
+inline constexpr std::int64_t kSpeedUnavailable = 8191;
+inline constexpr std::int64_t kHeadingUnavailable = 28'800;
 inline constexpr std::int64_t kAccelerationMax = 2000;
 inline constexpr std::int64_t kOffsetMax = 8'388'607;
+
+inline constexpr double kHeadingUnitsPerRad = 80.0 * 180.0 / math::kPi;
+
+/// The field's integer: saturated to [0, 8190], 8191 for nothing and for what is not a number.
+inline std::int64_t speed_units(const std::optional<double>& speed_mps) {
+  return speed_mps ? to_units(*speed_mps, kSpeedUnitsPerMps, 0, kSpeedMax, kSpeedUnavailable) : kSpeedUnavailable;
+}
+/// Empty for 8191. Requires [0, 8191].
+inline std::optional<double> speed_mps(std::int64_t units) {
+  if (units == kSpeedUnavailable) return std::nullopt;
+  return static_cast<double>(units) / kSpeedUnitsPerMps;
+}
+/// The field's integer in [0, 28799], a full turn is north again; 28800 for nothing and for what is beyond a turn.
+inline std::int64_t heading_units(const std::optional<double>& heading_rad) {
+  if (!heading_rad) return kHeadingUnavailable;
+  const std::int64_t units = to_units(*heading_rad, kHeadingUnitsPerRad, 0, kHeadingUnavailable, kHeadingUnavailable);
+  return units == kHeadingUnavailable && *heading_rad <= 2 * math::kPi ? 0 : units;
+}
+/// Empty for 28800. Requires [0, 28800].
+inline std::optional<double> heading_rad(std::int64_t units) {
+  if (units == kHeadingUnavailable) return std::nullopt;
+  return static_cast<double>(units) / kHeadingUnitsPerRad;
+}
 
 /// A Position3D or PositionOffset as it came.
 struct RawPosition {

@@ -25,6 +25,7 @@ class Checker {
     demands();
     drivers();
     links();
+    sensors();
     for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
     return std::move(findings_);
   }
@@ -160,6 +161,28 @@ class Checker {
           "is " + number_text(d.stop_rearm_kmh()) + " km/h, must be above stop_speed_kmh, " +
               number_text(d.stop_speed_kmh()) + " km/h",
           {field("stop_speed_kmh")});
+    }
+  }
+
+  void sensors() {
+    for (int r = 0; r < scenario_.rsus_size(); ++r) {
+      const Rsu& rsu = scenario_.rsus(r);
+      for (int s = 0; s < rsu.sensors_size(); ++s) {
+        sensor(rsu.sensors(s), extended(extended(FieldPath{}, "rsus", r), "sensors", s));
+      }
+    }
+  }
+
+  void sensor(const Sensor& said, const FieldPath& path) {
+    const std::string given = "is " + number_text(said.to_m()) + " m, must be ";
+    if (said.to_m() <= said.from_m()) {
+      add(extended(path, "to_m"), given + "above from_m, " + number_text(said.from_m()) + " m",
+          {extended(path, "from_m")});
+    }
+    const double approach_m = scenario_.traffic().approach_length_m();
+    if (said.to_m() > approach_m) {
+      add(extended(path, "to_m"), given + "at most traffic.approach_length_m, " + number_text(approach_m) + " m",
+          {path_to({"traffic", "approach_length_m"})});
     }
   }
 

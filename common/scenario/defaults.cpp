@@ -39,7 +39,8 @@ void fill(Message& message) {
       }
     } else if (is_message) {
       if (has(message, field) || is_created(field)) fill(*reflection->MutableMessage(&message, field));
-    } else if (!has(message, field) && has_fallback(field) && !is_replaced(message, field)) {
+    } else if (!has(message, field) && has_fallback(field) && !rule_of(field).kept_absent() &&
+               !is_replaced(message, field)) {
       LUKOU_EXPECT(parse_value(rule_of(field).fallback(), field, message).empty());
     }
   }

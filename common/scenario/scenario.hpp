@@ -71,6 +71,9 @@ Expected<std::vector<double>> arrivals(const Resolved& scenario, Approach approa
 /// What a user should know before the run starts, though nothing is wrong: demand above capacity, conflicts, ...
 std::vector<std::string> warnings(const Resolved& scenario);
 
+/// What each roadside sensor watches and how well, one a line; begins with its path.
+std::vector<std::string> sensor_lines(const Resolved& scenario);
+
 /// Capacity of an approach under a plan [veh/h]: the flow at which its first lane is saturated.
 /// `shares` are the relative weights of the left, centre and right lane, not all 0.
 double capacity_veh_per_h(const lukou::SignalPlan& plan, Approach approach,

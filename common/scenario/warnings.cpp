@@ -60,6 +60,24 @@ void warn_of_conflicts(const Scenario& scenario, const lukou::SignalPlan& plan, 
   }
 }
 
+/// An RSU does not know that two of its sensors see the same car.
+void warn_of_overlapping_sensors(const Scenario& scenario, std::vector<std::string>& warnings) {
+  for (int r = 0; r < scenario.rsus_size(); ++r) {
+    const auto& sensors = scenario.rsus(r).sensors();
+    for (int b = 0; b < sensors.size(); ++b) {
+      for (int a = 0; a < b; ++a) {
+        const double from_m = std::max(sensors[a].from_m(), sensors[b].from_m());
+        const double to_m = std::min(sensors[a].to_m(), sensors[b].to_m());
+        if (sensors[a].approach() != sensors[b].approach() || from_m >= to_m) continue;
+        const std::string rsu = "rsus[" + std::to_string(r) + "].sensors";
+        warnings.push_back(rsu + ": [" + std::to_string(a) + "] and [" + std::to_string(b) + "] both see the cars " +
+                           number_text(from_m) + " to " + number_text(to_m) +
+                           " m before the line; the RSU is told of each of them twice");
+      }
+    }
+  }
+}
+
 }  // namespace
 
 double capacity_veh_per_h(const lukou::SignalPlan& plan, Approach approach,
@@ -85,6 +103,7 @@ std::vector<std::string> warnings(const Resolved& resolved) {
   std::vector<std::string> warnings;
   warn_of_demand(scenario, plan, warnings);
   warn_of_conflicts(scenario, plan, warnings);
+  warn_of_overlapping_sensors(scenario, warnings);
   const double duration_s = scenario.run().duration_s();
   if (scenario.run().warmup_s() >= duration_s) {
     warnings.push_back("run.warmup_s: the warm-up of " + number_text(scenario.run().warmup_s()) +

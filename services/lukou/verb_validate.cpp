@@ -39,6 +39,7 @@ int validate(const ValidateArguments& arguments) {
   const auto scenario = load(arguments.scenario);
   if (!scenario) return report_errors(scenario.error());
   for (const std::string& warning : scenario::warnings(scenario.value())) process::log_warning(warning);
+  for (const std::string& line : scenario::sensor_lines(scenario.value())) std::fprintf(stderr, "%s\n", line.c_str());
   if (arguments.fields) print_fields();
   if (arguments.print) std::fputs(scenario::text(scenario.value()).c_str(), stdout);
   std::fprintf(stderr, "%s is valid, hash %s\n", arguments.scenario.scenario.c_str(),

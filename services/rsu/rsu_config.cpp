@@ -47,6 +47,10 @@ Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t
     config.parameters.arrive_on_green =
         arrive_on_green_of(from.arrive_on_green(), scenario.vehicles().acceleration_max_mps2());
   }
+  for (const scenario::Sensor& sensor : from.sensors()) {
+    config.sensors.push_back(
+        {.radar = sensor.kind() == scenario::Sensor::RADAR, .accuracy_m = sensor.position_noise_m()});
+  }
   return config;
 }
 

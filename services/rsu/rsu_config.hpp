@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/core/expected.hpp"
 #include "common/intersection/geometry.hpp"
@@ -15,6 +16,12 @@ namespace scenario {
 class Scenario;
 }
 
+/// What an RSU knows of a sensor of its own.
+struct RsuSensor {
+  bool radar = false;       ///< false: a camera
+  double accuracy_m = 0.0;  ///< standard deviation of a position, from its data sheet
+};
+
 /// All that one RSU needs to know before a run.
 struct RsuConfig {
   std::uint32_t rsu = 0;         ///< index in the scenario's list
@@ -26,6 +33,7 @@ struct RsuConfig {
   double acceleration_max_mps2 = 0.0;  ///< of every car
   std::string algorithm;
   AlgorithmParameters parameters;
+  std::vector<RsuSensor> sensors;  ///< in the order of the scenario
 };
 
 /// The configuration of the scenario's RSU number `rsu`. The scenario is resolved: every field is present and valid.

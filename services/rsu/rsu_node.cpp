@@ -15,6 +15,22 @@ constexpr std::size_t kStatesPerPhase = 3;  // what shows now and the two aspect
 constexpr Step kMapEvery = kStepsPerSecond;
 constexpr Step kLongestLifetime = 65'534 / 10;  // steps that the field of 10 ms units holds
 
+constexpr double kTypicalWidth_m = 1.8;            // of what a sensor sees; assumed
+constexpr Step kClockTolerance = kStepsPerSecond;  // a car's clock may be this far ahead; assumed
+
+/// Length of a vehicle of a class; assumed.
+double typical_length_m(std::uint8_t length_class) {
+  switch (static_cast<LengthClass>(length_class)) {
+    case LengthClass::kShort:
+      return 4.5;
+    case LengthClass::kMedium:
+      return 9.0;
+    case LengthClass::kLong:
+      return 16.0;
+  }
+  return 0.0;
+}
+
 MapData map_of(const RsuConfig& config) {
   MapData map;
   map.node = kNode;
@@ -32,13 +48,14 @@ MapData map_of(const RsuConfig& config) {
 std::optional<CarReport> report_of(const BasicSafety& message, Step now) {
   if (!message.speed_mps || !message.heading_rad) return std::nullopt;
   return CarReport{.id = static_cast<TemporaryId>(message.temporary_id),
-                   .made = step_of_second_mark(now, message.second_mark_ms),
+                   .made = step_near_second_mark(now, message.second_mark_ms, kClockTolerance),
                    .place = {.centre_x_m = message.centre.x_m,
                              .centre_y_m = message.centre.y_m,
                              .heading_rad = *message.heading_rad,
                              .length_m = message.length_m},
                    .speed_mps = *message.speed_mps,
-                   .acceleration_mps2 = message.acceleration_mps2.value_or(0.0)};
+                   .acceleration_mps2 = message.acceleration_mps2.value_or(0.0),
+                   .accuracy_m = message.accuracy_m};
 }
 
 }  // namespace
@@ -48,15 +65,17 @@ RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
       algorithm_(std::move(algorithm)),
       modem_(config_.radio.seed, config_.radio.uplink),
       cars_(config_.road),
+      sensed_(config_.road),
       map_(map_of(config_)) {
   LUKOU_EXPECT(algorithm_ != nullptr);
   view_.map = {.speed_limit_mps = config_.speed_limit_mps, .approach_length_m = config_.road.approach_m};
   spat_.node = kNode;
   guidance_.rsu = config_.station_id;
+  safety_.rsu = config_.station_id;
 }
 
 void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, RoadsideBatch& out) {
-  LUKOU_EXPECT(air.step == k);
+  LUKOU_EXPECT(air.step == k && air.sensed.well_formed());
   out.rsu = config_.rsu;
   out.step = k;
   out.frames.clear();
@@ -74,15 +93,18 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   }
   signals_.advance(k);
   hear(k, air, out);
+  look(k, air.sensed);
   think(k);
   say_spat(k, out.frames);
   if (k % kMapEvery == 0) say_map(k, out.frames);
   say_guidance(k, out);
+  say_sensed(out.frames);
 }
 
 void RsuNode::change(const RsuConfig& config) {
   config_.radio = config.radio;
   modem_.use(config.radio.uplink);
+  config_.sensors = config.sensors;
 }
 
 void RsuNode::hear(Step k, const AirBatch& air, RoadsideBatch& out) {
@@ -130,12 +152,29 @@ void RsuNode::understand(Step k, std::uint8_t kind, std::span<const std::uint8_t
   }
 }
 
+void RsuNode::look(Step k, const SensedColumns& sensed) {
+  sensed_.begin(k);
+  for (std::size_t row = 0; row < sensed.size(); ++row) {
+    if (sensed.rsu[row] != config_.rsu || sensed.sensor[row] >= config_.sensors.size()) continue;
+    sensed_.take({.sensor = sensed.sensor[row],
+                  .track = sensed.track[row],
+                  .front_x_m = sensed.x_m[row],
+                  .front_y_m = sensed.y_m[row],
+                  .speed_mps = sensed.speed_mps[row],
+                  .heading_rad = sensed.heading_rad[row],
+                  .length_m = typical_length_m(sensed.length_class[row]),
+                  .seen = sensed.measured[row]});
+  }
+  sensed_.arrange();
+}
+
 void RsuNode::think(Step k) {
   view_.step = k;
   view_.time_s = time_s(k);
   for (std::size_t i = 0; i < view_.lanes.size(); ++i) {
     const auto lane = static_cast<Lane>(i);
     view_.lanes[i] = {.cars = cars_.cars(lane),
+                      .sensed = sensed_.cars(lane),
                       .last_crossing_s = cars_.last_crossing_s(lane),
                       .aspect = signals_.aspect(lane),
                       .aspect_since = signals_.since(lane),
@@ -197,6 +236,36 @@ void RsuNode::send_guidance(Frames& frames) {
   guidance_.count = next_count(FrameKind::kRsc);
   append(frames, next_envelope(), guidance_);
   guidance_.vehicles.clear();
+}
+
+void RsuNode::say_sensed(Frames& frames) {
+  safety_.participants.clear();
+  for (const NumberedReading& item : sensed_.readings()) {
+    const SensorReading& seen = item.reading;
+    const RsuSensor& sensor = config_.sensors[seen.sensor];
+    const PlanePoint centre = centre_of_car({seen.front_x_m, seen.front_y_m}, seen.heading_rad, seen.length_m);
+    if (!fits_offset(centre)) continue;
+    safety_.participants.push_back(
+        {.type = ParticipantType::kMotor,
+         .number = item.number,
+         .source = sensor.radar ? ParticipantSource::kMicrowaveRadar : ParticipantSource::kVideo,
+         .vehicle = {},
+         .second_mark_ms = second_mark_ms(seen.seen),
+         .centre = centre,
+         .accuracy_m = sensor.accuracy_m,
+         .speed_mps = seen.speed_mps,
+         .heading_rad = seen.heading_rad,
+         .width_m = kTypicalWidth_m,
+         .length_m = seen.length_m});
+    if (safety_.participants.size() == kMaxParticipants) send_sensed(frames);
+  }
+  if (!safety_.participants.empty()) send_sensed(frames);
+}
+
+void RsuNode::send_sensed(Frames& frames) {
+  safety_.count = next_count(FrameKind::kRsm);
+  append(frames, next_envelope(), safety_);
+  safety_.participants.clear();
 }
 
 Envelope RsuNode::next_envelope() {

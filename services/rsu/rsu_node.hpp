@@ -9,29 +9,32 @@
 #include "common/bus/batches.hpp"
 #include "common/messages/map.hpp"
 #include "common/messages/rsc.hpp"
+#include "common/messages/rsm.hpp"
 #include "common/messages/spat.hpp"
 #include "common/radio/inbox.hpp"
 #include "common/radio/modem.hpp"
 #include "services/rsu/model/heard_cars.hpp"
+#include "services/rsu/model/sensed_cars.hpp"
 #include "services/rsu/model/signal_view.hpp"
 #include "services/rsu/rsu_config.hpp"
 #include "services/rsu/sdk/rsu_algorithm.hpp"
 
 namespace lukou {
 
-/// One RSU: hears the air of a step, lets its algorithm think, and says SPAT (each step), MAP (each second) and
-/// guidance.
+/// One RSU: hears the air of a step, looks through its sensors, lets its algorithm think, and says SPAT (each step),
+/// MAP (each second), guidance, and RSM if it sees anything.
 class RsuNode {
  public:
   /// Requires an algorithm.
   RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm);
 
-  /// The scenario after the directives of the next step: takes over the radio, nothing else.
+  /// The scenario after the directives of the next step: takes over the radio and how good its
+  /// sensors are, nothing else.
   void change(const RsuConfig& config);
   /// The step function. `new_signal` is the controller's batch if there is a new one, otherwise null: then what it
   /// promised before stands. `out` is overwritten, all but its epoch.
-  /// Requires steps one after the other, air of the same step, and a well-formed promise that covers it: the lockstep
-  /// has checked them.
+  /// Requires steps one after the other, air of the same step with well-formed columns, and a promise that covers it:
+  /// the lockstep has checked them.
   void step(Step k, const SignalBatch* new_signal, const AirBatch& air, RoadsideBatch& out);
 
  private:
@@ -44,11 +47,14 @@ class RsuNode {
   void hear(Step k, const AirBatch& air, RoadsideBatch& out);
   void receive(const AirBatch& air);
   void understand(Step k, std::uint8_t kind, std::span<const std::uint8_t> payload, RoadsideBatch& out);
+  void look(Step k, const SensedColumns& sensed);
   void think(Step k);
   void say_spat(Step k, Frames& frames);
   void say_map(Step k, Frames& frames);
   void say_guidance(Step k, RoadsideBatch& out);
   void send_guidance(Frames& frames);
+  void say_sensed(Frames& frames);
+  void send_sensed(Frames& frames);
   [[nodiscard]] Envelope next_envelope();
   [[nodiscard]] std::uint8_t next_count(FrameKind kind);
 
@@ -58,12 +64,14 @@ class RsuNode {
   Inbox<Underway> inbox_;  ///< stays empty under the ideal radio
   ReceptionTally tally_;   ///< of this step
   HeardCars cars_;
+  SensedCars sensed_;
   SignalView signals_;
   RsuView view_;
   RsuAnswer answer_;
   MapData map_;
   Spat spat_;
   Coordination guidance_;
+  RoadsideSafety safety_;
   std::uint32_t next_sequence_ = 0;
   std::array<std::uint8_t, 6> next_count_{};  ///< by FrameKind
 };

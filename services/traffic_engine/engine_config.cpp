@@ -56,6 +56,35 @@ traffic::DrivingParameters driving_parameters(const scenario::Driving& from) {
           .reaction_time_s = from.reaction_time_s()};
 }
 
+traffic::UnitErrorParameters unit_error_parameters(const scenario::Vehicles& from) {
+  traffic::UnitErrorParameters errors;
+  errors.clock_offset_ms = from.clock_offset_ms();
+  if (!from.has_positioning()) return errors;
+  errors.bias_m = from.positioning().bias_m();
+  errors.noise_m = from.positioning().noise_m();
+  errors.correlation_s = from.positioning().correlation_s();
+  return errors;
+}
+
+std::vector<traffic::SensorParameters> sensor_parameters(const scenario::Scenario& scenario) {
+  std::vector<traffic::SensorParameters> sensors;
+  for (int rsu = 0; rsu < scenario.rsus_size(); ++rsu) {
+    for (int i = 0; i < scenario.rsus(rsu).sensors_size(); ++i) {
+      const scenario::Sensor& from = scenario.rsus(rsu).sensors(i);
+      sensors.push_back({.rsu = static_cast<std::uint32_t>(rsu),
+                         .sensor = static_cast<std::uint32_t>(i),
+                         .approach = static_cast<Approach>(from.approach() - scenario::Sensor::WEST),
+                         .from_m = from.from_m(),
+                         .to_m = from.to_m(),
+                         .miss_rate = from.miss_rate(),
+                         .position_noise_m = from.position_noise_m(),
+                         .speed_noise_mps = from.speed_noise_mps(),
+                         .latency_ms = from.latency_ms()});
+    }
+  }
+  return sensors;
+}
+
 Expected<traffic::DemandParameters> demand_parameters(const scenario::Resolved& scenario, Approach approach) {
   const scenario::Demand& from = demand_of(scenario.message().traffic(), approach);
   traffic::DemandParameters demand;
@@ -103,6 +132,8 @@ Expected<EngineConfig> engine_config(const scenario::Resolved& scenario) {
   const scenario::Scenario& from = scenario.message();
   EngineConfig config;
   config.radio = scenario::radio_parameters(from);
+  config.unit_errors = unit_error_parameters(from.vehicles());
+  config.sensors = sensor_parameters(from);
   config.traffic.seed = from.run().seed();
   config.traffic.overflow_wait_s = from.run().overflow_wait_s();
   config.traffic.vehicles = vehicle_parameters(from.vehicles());

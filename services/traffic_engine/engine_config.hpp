@@ -1,8 +1,12 @@
 #pragma once
 
+#include <vector>
+
 #include "common/core/expected.hpp"
 #include "common/radio/link_model.hpp"
 #include "services/traffic_engine/model/parameters.hpp"
+#include "services/traffic_engine/model/roadside_sensors.hpp"
+#include "services/traffic_engine/model/unit_errors.hpp"
 
 namespace lukou {
 
@@ -14,6 +18,8 @@ class Resolved;
 struct EngineConfig {
   traffic::EngineParameters traffic;
   RadioParameters radio;
+  traffic::UnitErrorParameters unit_errors;
+  std::vector<traffic::SensorParameters> sensors;  ///< of all RSUs, in the order of the scenario
 };
 
 /// Reads it, traces of arrivals included. Refuses values that are each in range but do not go together.

@@ -8,14 +8,11 @@
 #include "common/messages/bsm.hpp"
 #include "common/messages/rsc.hpp"
 #include "common/messages/time_marks.hpp"
+#include "services/traffic_engine/air_report.hpp"
 #include "services/traffic_engine/traffic_report.hpp"
 
 namespace lukou {
 namespace {
-
-constexpr std::uint32_t kMessageCounts = 128;  ///< a message count is modulo this
-/// A car whose deceleration is at least this [m/s2] shows its brakes; assumed.
-constexpr double kBrakePedal_mps2 = 0.5;
 
 /// Steps that begin within a lifetime: an advice of 250 ms acts in three.
 Step steps_of_life(std::uint32_t lifetime_ms) { return (static_cast<Step>(lifetime_ms) + kStep_ms - 1) / kStep_ms; }
@@ -42,7 +39,11 @@ bool same_flows(const traffic::DemandParameters& a, const traffic::DemandParamet
 }  // namespace
 
 EngineNode::EngineNode(const EngineConfig& config)
-    : config_(config), engine_(config.traffic), modem_(config.radio.seed, config.radio.downlink) {}
+    : config_(config),
+      engine_(config.traffic),
+      modem_(config.radio.seed, config.radio.downlink),
+      unit_errors_(config.traffic.seed, config.unit_errors),
+      sensors_(config.traffic.seed, config.sensors) {}
 
 void EngineNode::change(const EngineConfig& config) {
   for (const Approach approach : kAllApproaches) {
@@ -57,6 +58,8 @@ void EngineNode::change(const EngineConfig& config) {
   engine_.change_equipped_ratio(config.traffic.equipped_ratio);
   config_.radio = config.radio;
   modem_.use(config.radio.downlink);
+  unit_errors_.use(config.unit_errors);
+  sensors_.use(config.sensors);
 }
 
 Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span<const RoadsideBatch* const> roadside,
@@ -87,7 +90,8 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   }
   air.step = k;
   air.frames.clear();
-  speak(k, air.frames);
+  say_safety_messages(engine_, unit_errors_, k, air.frames);
+  report_sensed(sensors_.look(k, engine_), air.sensed);
   return Done{};
 }
 
@@ -186,35 +190,6 @@ Expected<Done> EngineNode::report_reception(std::span<const RoadsideBatch* const
     traffic.reception.add(batch->reception);
   }
   return Done{};
-}
-
-void EngineNode::speak(Step k, Frames& frames) const {
-  const traffic::EngineParameters& parameters = engine_.parameters();
-  BasicSafety message;
-  message.second_mark_ms = second_mark_ms(k);
-  message.length_m = parameters.vehicles.length_m;
-  message.width_m = parameters.vehicles.width_m;
-  for (int i = 0; i < kLanes; ++i) {
-    const auto lane = static_cast<Lane>(i);
-    for (const traffic::Car& car : engine_.lane(lane).cars()) {
-      if (!car.equipped) continue;
-      const Pose pose = pose_on_path(parameters.road, lane, car.motion.position_m);
-      const auto sequence = static_cast<std::uint32_t>(k - car.entered);
-      message.temporary_id = car.temporary_id;
-      message.count = static_cast<std::uint8_t>(sequence % kMessageCounts);
-      message.centre = centre_of_car({pose.x_m, pose.y_m}, pose.heading_rad, message.length_m);
-      message.speed_mps = car.motion.speed_mps;
-      message.heading_rad = pose.heading_rad;
-      message.acceleration_mps2 = car.motion.acceleration_mps2;
-      message.braking = car.motion.acceleration_mps2 <= -kBrakePedal_mps2;
-      append(frames,
-             {.sender = car.temporary_id,
-              .sequence = sequence,
-              .antenna_x_m = message.centre.x_m,
-              .antenna_y_m = message.centre.y_m},
-             message);
-    }
-  }
 }
 
 }  // namespace lukou

@@ -10,6 +10,8 @@
 #include "common/radio/modem.hpp"
 #include "services/traffic_engine/engine_config.hpp"
 #include "services/traffic_engine/model/engine.hpp"
+#include "services/traffic_engine/model/roadside_sensors.hpp"
+#include "services/traffic_engine/model/unit_errors.hpp"
 
 namespace lukou {
 
@@ -18,7 +20,8 @@ class EngineNode {
  public:
   explicit EngineNode(const EngineConfig& config);
 
-  /// The scenario after the directives of the next step: takes over flows, the equipped ratio and the radio.
+  /// The scenario after the directives of the next step: takes over flows, the equipped ratio, the radio,
+  /// the errors of on-board units and those of roadside sensors.
   void change(const EngineConfig& config);
   /// Executes step k. `new_signal` is the controller's newest batch if one came, `roadside` each RSU's batch of step
   /// k - 1 (nullptr = silent). Fills `traffic` and `air`. Fails if the controller's promise does not hold the heads of
@@ -42,12 +45,13 @@ class EngineNode {
   void deliver(Step now);
   void report_fates(TrafficBatch& traffic) const;
   Expected<Done> report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const;
-  void speak(Step k, Frames& frames) const;
 
   EngineConfig config_;  ///< as it is in force
   traffic::Engine engine_;
   SignalPromise promise_;
-  Modem modem_;                          ///< of the units of all cars
+  Modem modem_;  ///< of the units of all cars
+  traffic::UnitErrors unit_errors_;
+  traffic::RoadsideSensors sensors_;
   Inbox<traffic::Advice> inbox_;         ///< stays empty under the ideal radio
   ReceptionTally tally_;                 ///< of this step
   std::vector<traffic::Advice> advice_;  ///< heard in this step

@@ -7,6 +7,14 @@ namespace lukou {
 namespace {
 
 constexpr Step kForgetAfter = kStepsPerSecond;
+constexpr double kHardest_mps2 = 10.0;  // no car speeds up more than this
+constexpr double kTolerance_m = 10.0;   // of two positions; assumed
+
+/// Whether a car can have come to its stop line between two of its reports.
+bool can_have_crossed(const CarReport& before, double distance_m, Step made) {
+  const double elapsed_s = time_s(made - before.made);
+  return distance_m <= (before.speed_mps + 0.5 * kHardest_mps2 * elapsed_s) * elapsed_s + kTolerance_m;
+}
 
 }  // namespace
 
@@ -22,7 +30,7 @@ void HeardCars::hear(const CarReport& report) {
       entries_.insert(known, {report, *place});
     }
   } else if (is_known) {
-    note_crossing(*known, report, place);
+    if (can_have_crossed(known->report, known->place.distance_m, report.made)) note_crossing(*known, report, place);
     entries_.erase(known);
   }
 }
@@ -48,7 +56,8 @@ void HeardCars::arrange(Step now) {
                                                  .distance_m = entry.place.distance_m,
                                                  .speed_mps = entry.report.speed_mps,
                                                  .acceleration_mps2 = entry.report.acceleration_mps2,
-                                                 .age = now - entry.report.made});
+                                                 .age = std::max<Step>(0, now - entry.report.made),
+                                                 .accuracy_m = entry.report.accuracy_m});
   }
   for (auto& lane : by_lane_) {
     std::ranges::sort(lane, {}, [](const HeardCar& car) { return std::tuple(car.distance_m, car.id); });

@@ -13,10 +13,11 @@ namespace lukou {
 /// What one message says of a car.
 struct CarReport {
   TemporaryId id{};
-  Step made = 0;  ///< when it was made
+  Step made = 0;  ///< when it was made; later than now if the car's clock is ahead
   ReportedPlace place;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
+  std::optional<double> accuracy_m;  ///< of the place, one standard deviation
 };
 
 /// The cars on the approaches as their messages tell, and when they crossed their stop lines.
@@ -25,7 +26,8 @@ class HeardCars {
   explicit HeardCars(const RoadLengths& road) : road_(road) {}
 
   /// Takes a report. One that is not newer than the car's last changes nothing; one off the approaches ends the car's
-  /// place here, as a crossing if it was on its way to a stop line.
+  /// place here, as a crossing if it can have come to its stop line since its last report: a position far off the road
+  /// is an error, not a crossing.
   void hear(const CarReport& report);
   /// Forgets cars unheard for more than a second and puts the rest in order; the views below speak of `now`.
   void arrange(Step now);

@@ -39,7 +39,8 @@ std::optional<ApproachPlace> match_to_map(const RoadLengths& road, const Reporte
     const double lanes_from_axis = -y_m / kLaneWidth_m;
     if (!(lanes_from_axis >= 0.0 && lanes_from_axis < kLanesPerApproach)) return std::nullopt;
     const double distance_m = -kStopLineOffset_m - x_m - 0.5 * car.length_m;
-    if (distance_m > road.approach_m + kEntranceTolerance_m || distance_m < -2 * kStopLineOffset_m) return std::nullopt;
+    const bool on_path = distance_m <= road.approach_m + kEntranceTolerance_m && distance_m >= -2 * kStopLineOffset_m;
+    if (!on_path) return std::nullopt;  // nor is what is not a number
     return ApproachPlace{lane_of(approach, static_cast<Turn>(lanes_from_axis)), distance_m};
   }
   return std::nullopt;

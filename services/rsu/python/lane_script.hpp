@@ -12,6 +12,7 @@ namespace lukou::python {
 /// A lane as a test writes it.
 struct LaneScript {
   std::vector<HeardCar> cars;
+  std::vector<SensedCar> sensed;
   Aspect aspect = Aspect::kRed;
   Step aspect_since = 0;
   std::vector<SignalChange> changes;
@@ -29,7 +30,9 @@ class ScriptedView {
       if (!lane)
         throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
       for (HeardCar& car : script.cars) car.lane = *lane;
+      for (SensedCar& car : script.sensed) car.lane = *lane;
       view_.lanes[index(*lane)] = {.cars = script.cars,
+                                   .sensed = script.sensed,
                                    .last_crossing_s = {},
                                    .aspect = script.aspect,
                                    .aspect_since = script.aspect_since,

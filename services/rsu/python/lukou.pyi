@@ -63,7 +63,31 @@ class HeardCar:
     def acceleration_mps2(self) -> float: ...
     @property
     def age_s(self) -> float:
-        """Since the message was made; 0 = it tells of now."""
+        """Since the message was made, by the car's clock; 0 = it tells of now."""
+    @property
+    def accuracy_m(self) -> Optional[float]:
+        """Of its position as its unit tells, one standard deviation."""
+
+class SensedCar:
+    """A car on an approach as a roadside sensor tells of it; the same car may stand among the heard ones, too."""
+
+    def __init__(
+        self, *, track: int, distance_m: float, speed_mps: float, age_s: float = 0.0, sensor: int = 0
+    ) -> None: ...
+    @property
+    def sensor(self) -> int:
+        """Index in this RSU's list of the scenario."""
+    @property
+    def track(self) -> int:
+        """The same as long as this sensor follows this car; says nothing else."""
+    @property
+    def lane(self) -> str: ...
+    @property
+    def distance_m(self) -> float: ...
+    @property
+    def speed_mps(self) -> float: ...
+    @property
+    def age_s(self) -> float: ...
 
 class GreenWindow:
     @property
@@ -85,6 +109,9 @@ class LaneView:
     @property
     def cars(self) -> list[HeardCar]:
         """Front to back; cars without an on-board unit are never among them."""
+    @property
+    def sensed(self) -> list[SensedCar]:
+        """Front to back; what sensors delivered for this step, nothing is kept."""
     @property
     def last_crossing_s(self) -> Optional[float]: ...
     @property
@@ -177,6 +204,7 @@ class LaneScript:
         self,
         *,
         cars: Sequence[HeardCar] = ...,
+        sensed: Sequence[SensedCar] = ...,
         aspect: Aspect = Aspect.RED,
         aspect_since_s: float = 0.0,
         changes: Sequence[tuple[Aspect, float]] = ...,

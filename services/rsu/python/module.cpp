@@ -178,7 +178,24 @@ PYBIND11_MODULE(lukou, m) {
       .def_readonly("distance_m", &HeardCar::distance_m)
       .def_readonly("speed_mps", &HeardCar::speed_mps)
       .def_readonly("acceleration_mps2", &HeardCar::acceleration_mps2)
-      .def_property_readonly("age_s", [](const HeardCar& car) { return time_s(car.age); });
+      .def_property_readonly("age_s", [](const HeardCar& car) { return time_s(car.age); })
+      .def_readonly("accuracy_m", &HeardCar::accuracy_m);
+  py::class_<SensedCar>(m, "SensedCar")
+      .def(py::init([](std::uint32_t track, double distance_m, double speed_mps, double age_s, std::uint32_t sensor) {
+             return SensedCar{.sensor = sensor,
+                              .track = track,
+                              .distance_m = distance_m,
+                              .speed_mps = speed_mps,
+                              .age = step_at_or_after(age_s)};
+           }),
+           py::kw_only(), py::arg("track"), py::arg("distance_m"), py::arg("speed_mps"), py::arg("age_s") = 0.0,
+           py::arg("sensor") = 0)
+      .def_readonly("sensor", &SensedCar::sensor)
+      .def_readonly("track", &SensedCar::track)
+      .def_property_readonly("lane", [](const SensedCar& car) { return std::string(name(car.lane)); })
+      .def_readonly("distance_m", &SensedCar::distance_m)
+      .def_readonly("speed_mps", &SensedCar::speed_mps)
+      .def_property_readonly("age_s", [](const SensedCar& car) { return time_s(car.age); });
   py::class_<GreenWindow>(m, "GreenWindow")
       .def_readonly("begin_s", &GreenWindow::begin_s)
       .def_readonly("end_s", &GreenWindow::end_s);
@@ -192,6 +209,11 @@ PYBIND11_MODULE(lukou, m) {
                              [](const PyLane& lane) {
                                const auto cars = lane.get().cars;
                                return std::vector<HeardCar>(cars.begin(), cars.end());
+                             })
+      .def_property_readonly("sensed",
+                             [](const PyLane& lane) {
+                               const auto cars = lane.get().sensed;
+                               return std::vector<SensedCar>(cars.begin(), cars.end());
                              })
       .def_property_readonly("last_crossing_s", [](const PyLane& lane) { return lane.get().last_crossing_s; })
       .def_property_readonly("aspect", [](const PyLane& lane) { return lane.get().aspect; })
@@ -260,14 +282,15 @@ PYBIND11_MODULE(lukou, m) {
   m.def("carriable_mps2", &carriable_mps2, py::arg("wanted_mps2"), py::arg("limit_mps2"));
 
   py::class_<LaneScript>(m, "LaneScript")
-      .def(py::init([](std::vector<HeardCar> cars, Aspect aspect, double aspect_since_s,
+      .def(py::init([](std::vector<HeardCar> cars, std::vector<SensedCar> sensed, Aspect aspect, double aspect_since_s,
                        const std::vector<std::pair<Aspect, double>>& changes) {
-             LaneScript script{std::move(cars), aspect, step_at_or_after(aspect_since_s), {}};
+             LaneScript script{std::move(cars), std::move(sensed), aspect, step_at_or_after(aspect_since_s), {}};
              for (const auto& [to, at_s] : changes) script.changes.push_back({to, step_at_or_after(at_s)});
              return script;
            }),
-           py::kw_only(), py::arg("cars") = std::vector<HeardCar>{}, py::arg("aspect") = Aspect::kRed,
-           py::arg("aspect_since_s") = 0.0, py::arg("changes") = std::vector<std::pair<Aspect, double>>{});
+           py::kw_only(), py::arg("cars") = std::vector<HeardCar>{}, py::arg("sensed") = std::vector<SensedCar>{},
+           py::arg("aspect") = Aspect::kRed, py::arg("aspect_since_s") = 0.0,
+           py::arg("changes") = std::vector<std::pair<Aspect, double>>{});
   m.def("answer_of", &answer_of, py::arg("algorithm"), py::arg("setup"), py::kw_only(), py::arg("time_s") = 0.0,
         py::arg("lanes"));
   m.def(

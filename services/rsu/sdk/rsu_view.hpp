@@ -21,7 +21,19 @@ struct HeardCar {
   double distance_m = 0.0;  ///< of its front to the stop line, > 0
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
-  Step age = 0;  ///< steps since the message was made; 0 = it tells of now
+  Step age = 0;                      ///< steps since the message was made, by the car's clock; 0 = it tells of now
+  std::optional<double> accuracy_m;  ///< of its position as its unit tells, one standard deviation; empty: it does not
+};
+
+/// A car on an approach as a roadside sensor tells of it and as the RSU's map matching places it. It may have a unit or
+/// not, so the same car may stand among the heard ones, too; two sensors that see it give two of these.
+struct SensedCar {
+  std::uint32_t sensor = 0;  ///< index in this RSU's list of the scenario
+  std::uint32_t track = 0;   ///< the same as long as this sensor follows this car; says nothing else
+  Lane lane{};
+  double distance_m = 0.0;  ///< of its front to the stop line, > 0
+  double speed_mps = 0.0;
+  Step age = 0;  ///< steps since it was seen; 0 = it tells of now
 };
 
 /// A change of a signal head to come.
@@ -35,6 +47,7 @@ struct SignalChange {
 /// What the RSU knows of one approach lane.
 struct LaneView {
   std::span<const HeardCar> cars;         ///< front to back; cars without an on-board unit are never among them
+  std::span<const SensedCar> sensed;      ///< front to back; what sensors delivered for this step, nothing is kept
   std::optional<double> last_crossing_s;  ///< when a heard car last crossed the stop line
   Aspect aspect = Aspect::kRed;           ///< what the head shows from now on
   Step aspect_since = 0;                  ///< the step at which it began; as far as the RSU has seen

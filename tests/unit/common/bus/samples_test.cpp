@@ -15,9 +15,14 @@ auto members(Frames& f) {
   return std::tie(sender, sequence, kind, bytes, x, y, end, payload);
 }
 
+auto members(SensedColumns& s) {
+  auto& [rsu, sensor, track, x, y, speed, heading, length, measured] = s;
+  return std::tie(rsu, sensor, track, x, y, speed, heading, length, measured);
+}
+
 auto members(AirBatch& b) {
-  auto& [step, frames] = b;
-  return std::tuple_cat(std::tie(step), members(frames));
+  auto& [step, frames, sensed] = b;
+  return std::tuple_cat(std::tie(step), members(frames), members(sensed));
 }
 
 auto members(ReceptionReport& r) {

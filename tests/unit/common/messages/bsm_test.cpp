@@ -69,6 +69,37 @@ TEST(Bsm, ErrsByHalfAUnitAtMostOverTheWholeRange) {
   }
 }
 
+TEST(Bsm, ErrsByHalfAUnitInSizesAndAccuracyToo) {
+  BasicSafety message = typical();
+  for (int i = 0; i <= 1000; ++i) {
+    message.width_m = 10.23 * i / 1000.0;
+    message.length_m = 40.95 * i / 1000.0;
+    message.accuracy_m = 12.7 * i / 1000.0;
+    const BasicSafety back = decoded(message);
+    EXPECT_NEAR(back.width_m, message.width_m, 0.005 + 1e-9);
+    EXPECT_NEAR(back.length_m, message.length_m, 0.005 + 1e-9);
+    EXPECT_NEAR(back.accuracy_m.value(), *message.accuracy_m, 0.025 + 1e-9);
+  }
+}
+
+TEST(Bsm, SaysHowAccurateItsPositionIsOnlyIfItKnows) {
+  BasicSafety message = typical();
+  EXPECT_FALSE(on_the_wire(message).has_accuracy());
+  EXPECT_FALSE(decoded(message).accuracy_m);
+  message.accuracy_m = 1.52;
+  const v2x::BasicSafetyMessage wire = on_the_wire(message);
+  EXPECT_EQ(wire.accuracy().semi_major_5cm(), 30U);  // 1.52 / 0.05 = 30.4
+  EXPECT_EQ(wire.accuracy().semi_minor_5cm(), 30U);
+  EXPECT_EQ(wire.accuracy().orientation(), 65'535U);
+  EXPECT_EQ(wire.SerializeAsString(), bytes_of(one_frame(message)));
+  // 326 bits and twice 8 for the axes, 16 for the orientation: 358.
+  EXPECT_EQ(one_frame(message).wire_bytes[0], 45U);
+  message.accuracy_m = 300.0;
+  EXPECT_DOUBLE_EQ(decoded(message).accuracy_m.value(), 12.7);
+  message.accuracy_m = kNan;
+  EXPECT_FALSE(decoded(message).accuracy_m);
+}
+
 TEST(Bsm, SpeaksTheContract) {
   const v2x::BasicSafetyMessage wire = on_the_wire(typical());
   EXPECT_EQ(wire.msg_count(), 127U);
@@ -197,6 +228,7 @@ TEST(Bsm, IsMalformedWithAValueBeyondTheStandardsRange) {
   EXPECT_TRUE(refused([](auto& wire) { wire.mutable_size()->set_length_cm(4096); }));
   EXPECT_TRUE(refused([](auto& wire) { wire.mutable_brakes()->set_pedal(3); }));
   EXPECT_TRUE(refused([](auto& wire) { wire.set_transmission(8); }));
+  EXPECT_TRUE(refused([](auto& wire) { wire.mutable_accuracy()->set_semi_major_5cm(3); }));  // not whole
   EXPECT_FALSE(refused([](auto& wire) { wire.set_vehicle_class(255); }));
 }
 

@@ -8,6 +8,7 @@
 #include "common/messages/bsm.hpp"
 #include "common/messages/map.hpp"
 #include "common/messages/rsc.hpp"
+#include "common/messages/rsm.hpp"
 #include "common/messages/spat.hpp"
 #include "tests/unit/common/messages/one_frame.hpp"
 #include "v2x.pb.h"
@@ -33,13 +34,22 @@ std::vector<Kind> kinds() {
   for (auto& lane : spat.lanes) lane = {{Aspect::kGreen, 0, 10}};
   Coordination rsc;
   rsc.vehicles = {{.vehicle = 1, .path = GuidedPath{.centre = {}, .acceleration_mps2 = 1.0, .lifetime_ms = 10}}};
+  bsm.accuracy_m = 1.0;
+  RoadsideSafety rsm;
+  rsm.participants = {{.number = 1, .speed_mps = 3.0}};
   return {
-      {bytes_of(one_frame(bsm)), [](std::span<const std::uint8_t> bytes) { return decode_bsm(bytes).ok(); },
+      {bytes_of(one_frame(bsm)),
+       [](std::span<const std::uint8_t> bytes) {  // one without an accuracy is whole, but not this one
+         const auto message = decode_bsm(bytes);
+         return message.ok() && message.value().accuracy_m.has_value();
+       },
        [](const std::string& bytes) { return v2x::BasicSafetyMessage().ParseFromString(bytes); }},
       {bytes_of(one_frame(spat)), [](std::span<const std::uint8_t> bytes) { return decode_spat(bytes).ok(); },
        [](const std::string& bytes) { return v2x::Spat().ParseFromString(bytes); }},
       {bytes_of(one_frame(MapData{})), [](std::span<const std::uint8_t> bytes) { return decode_map(bytes).ok(); },
        [](const std::string& bytes) { return v2x::MapMessage().ParseFromString(bytes); }},
+      {bytes_of(one_frame(rsm)), [](std::span<const std::uint8_t> bytes) { return decode_rsm(bytes).ok(); },
+       [](const std::string& bytes) { return v2x::RoadsideSafetyMessage().ParseFromString(bytes); }},
       {bytes_of(one_frame(rsc)),
        [](std::span<const std::uint8_t> bytes) {  // one without cars is whole, but not this one
          const auto message = decode_rsc(bytes);

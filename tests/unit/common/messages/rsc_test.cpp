@@ -59,6 +59,20 @@ TEST(Rsc, DecodesAnAccelerationToExactlyItsHundredths) {
   }
 }
 
+TEST(Rsc, ReturnsEveryLifetimeAndEachPointWithinHalfAUnit) {
+  for (std::uint32_t units = 1; units <= 65'534; units += 61) {
+    Coordination message = two_cars();
+    const double along_m = 0.1 * units - 3000.0;
+    message.vehicles[0].path->lifetime_ms = 10 * units;
+    message.vehicles[0].path->centre = {along_m, -along_m};
+    const auto result = decode_rsc(one_frame(message).payload);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result.value().vehicles[0].path->lifetime_ms, 10 * units);
+    EXPECT_NEAR(result.value().vehicles[0].path->centre.x_m, along_m, 0.0056);
+    EXPECT_NEAR(result.value().vehicles[0].path->centre.y_m, -along_m, 0.0056);
+  }
+}
+
 TEST(Rsc, SpeaksTheContract) {
   const v2x::RoadsideCoordination wire = on_the_wire(two_cars());
   EXPECT_EQ(wire.reference().longitude_e7(), kGeoReference.longitude_e7);

@@ -69,11 +69,25 @@ TEST(Spat, SaysAnHourForWhatIsLaterThanAnHour) {
 }
 
 TEST(Spat, CostsTheBytesOfThePublishedCount) {
-  // Twelve phases: 240 bytes with three states of two times each, 102 with one.
+  // Bits: head 113, twelve phases of 12, states of 46 with two times each. 113 + 144 + 36 * 46 = 1913: 240 bytes;
+  // with one state a phase 113 + 144 + 12 * 46 = 809: 102 bytes. The head counts a region of 16 bits in the node's id.
   EXPECT_EQ(one_frame(three_states()).wire_bytes[0], 240U);
   Spat message = three_states();
   for (auto& lane : message.lanes) lane.resize(1);
   EXPECT_EQ(one_frame(message).wire_bytes[0], 102U);
+  message.lanes[3].push_back({Aspect::kRed, 10, 20});  // 855 bits
+  EXPECT_EQ(one_frame(message).wire_bytes[0], 107U);
+}
+
+TEST(Spat, ReturnsEveryTimeOfTheHour) {
+  for (Step from_now = 0; from_now < 36'000; from_now += 17) {
+    Spat message = three_states();
+    message.lanes[0] = {{Aspect::kRed, 0, from_now}, {Aspect::kGreen, from_now, {}}};
+    const auto result = decode_spat(one_frame(message).payload);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result.value().lanes[0][0].ends_in, from_now);
+    EXPECT_EQ(result.value().lanes[0][1].starts_in, from_now);
+  }
 }
 
 TEST(Spat, IsMalformedWithoutAPhaseOrWithOneTwice) {

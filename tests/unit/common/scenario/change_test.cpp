@@ -28,10 +28,13 @@ TEST(Change, OfAnotherFieldIsRefusedWithTheListOfLiveFields) {
   EXPECT_EQ(result.error().text(),
             "vehicles.length_m=4: vehicles.length_m cannot change while a run goes on; these can: "
             "traffic.west.flow_veh_per_h, traffic.south.flow_veh_per_h, traffic.east.flow_veh_per_h, "
-            "traffic.north.flow_veh_per_h, vehicles.equipped_ratio, signals.preset, signals.plan, "
+            "traffic.north.flow_veh_per_h, vehicles.equipped_ratio, vehicles.positioning, vehicles.clock_offset_ms, "
+            "signals.preset, signals.plan, "
             "radio.uplink.latency, radio.uplink.loss.rate, radio.uplink.loss.burst, radio.uplink.range_m, "
             "radio.uplink.duplicate_rate, radio.downlink.latency, radio.downlink.loss.rate, radio.downlink.loss.burst, "
-            "radio.downlink.range_m, radio.downlink.duplicate_rate");
+            "radio.downlink.range_m, radio.downlink.duplicate_rate, "
+            "rsus[].sensors[].miss_rate, rsus[].sensors[].position_noise_m, rsus[].sensors[].speed_noise_mps, "
+            "rsus[].sensors[].latency_ms");
   EXPECT_EQ(text(scenario), before);
 }
 

@@ -67,5 +67,14 @@ TEST(Warnings, SayThatTheApproachIsShorterThanDriversLook) {
                        "from 250 m on, but the approach is only 200 m long"));
 }
 
+TEST(Warnings, SayThatTwoSensorsOfAnRsuSeeTheSameCars) {
+  const std::string near = "sensors { approach: WEST to_m: 120 }";
+  EXPECT_TRUE(has_line(warned("rsus { " + near + " sensors { approach: WEST from_m: 100 to_m: 250 } }"),
+                       "rsus[0].sensors: [0] and [1] both see the cars 100 to 120 m before the line"));
+  EXPECT_FALSE(has_line(warned("rsus { " + near + " sensors { approach: WEST from_m: 120 to_m: 250 } }"), "both see"));
+  EXPECT_FALSE(has_line(warned("rsus { " + near + " sensors { approach: EAST } }"), "both see"));
+  EXPECT_FALSE(has_line(warned("rsus { " + near + " } rsus { " + near + " }"), "both see"));
+}
+
 }  // namespace
 }  // namespace lukou::scenario

@@ -21,6 +21,9 @@ scenario::Scenario two_rsus() {
   second.mutable_arrive_on_green()->set_headway_s(1.5);
   second.mutable_arrive_on_green()->set_final_braking_mps2(1.1);
   second.mutable_arrive_on_green()->set_lifetime_s(2.0);
+  second.add_sensors()->set_kind(scenario::Sensor::CAMERA);
+  second.add_sensors()->set_kind(scenario::Sensor::RADAR);
+  second.mutable_sensors(1)->set_position_noise_m(0.7);
   return from;
 }
 
@@ -40,6 +43,10 @@ TEST(RsuConfig, SaysWhatTheScenarioSays) {
   EXPECT_TRUE(config.value().radio.modelled);
   EXPECT_EQ(config.value().radio.seed, 3U);
   EXPECT_EQ(config.value().radio.uplink.loss_rate, 0.25);
+  ASSERT_EQ(config.value().sensors.size(), 2U);
+  EXPECT_FALSE(config.value().sensors[0].radar);
+  EXPECT_TRUE(config.value().sensors[1].radar);
+  EXPECT_EQ(config.value().sensors[1].accuracy_m, 0.7);
   EXPECT_NE(config.value().station_id, rsu_config(two_rsus(), 0).value().station_id);
 }
 

@@ -50,6 +50,8 @@ TEST(EngineConfig, OfAnEmptyScenarioIsTheDefaultOfTheModel) {
   EXPECT_EQ(from.driving.gap_closing_mps2, model.driving.gap_closing_mps2);
   EXPECT_EQ(from.driving.discharge_speed_mps, model.driving.discharge_speed_mps);
   EXPECT_EQ(from.driving.reaction_time_s, model.driving.reaction_time_s);
+  EXPECT_EQ(config.value().unit_errors, traffic::UnitErrorParameters{});
+  EXPECT_TRUE(config.value().sensors.empty());
   for (std::size_t i = 0; i < kApproaches; ++i) {
     EXPECT_FALSE(from.demand[i].listed);
     ASSERT_EQ(from.demand[i].flows.size(), 1U);
@@ -80,6 +82,32 @@ TEST(EngineConfig, ReadsATraceOfArrivals) {
   ASSERT_TRUE(config) << config.error().text();
   EXPECT_TRUE(config.value().traffic.demand[index(Approach::kWest)].listed);
   EXPECT_EQ(config.value().traffic.demand[index(Approach::kWest)].arrivals_s, (std::vector<double>{1.5, 4.0}));
+}
+
+TEST(EngineConfig, TakesSensorsOfAllRsusAndTheErrorsOfUnits) {
+  const auto config = config_of(R"(
+    vehicles { positioning { bias_m: 1 noise_m: 2 correlation_s: 3 } clock_offset_ms: 4 }
+    rsus { sensors { approach: SOUTH } }
+    rsus {
+      sensors { approach: WEST }
+      sensors { approach: NORTH from_m: 10 to_m: 99 miss_rate: 0.1 position_noise_m: 0.2 speed_noise_mps: 0.3 latency_ms: 40 }
+    })");
+  ASSERT_TRUE(config) << config.error().text();
+  EXPECT_EQ(config.value().unit_errors,
+            (traffic::UnitErrorParameters{.bias_m = 1, .noise_m = 2, .correlation_s = 3, .clock_offset_ms = 4}));
+  const auto& sensors = config.value().sensors;
+  ASSERT_EQ(sensors.size(), 3U);
+  EXPECT_EQ(sensors[0].approach, Approach::kSouth);
+  EXPECT_EQ(sensors[1].approach, Approach::kWest);
+  EXPECT_EQ(sensors[2].rsu, 1U);
+  EXPECT_EQ(sensors[2].sensor, 1U);
+  EXPECT_EQ(sensors[2].approach, Approach::kNorth);
+  EXPECT_EQ(sensors[2].from_m, 10.0);
+  EXPECT_EQ(sensors[2].to_m, 99.0);
+  EXPECT_EQ(sensors[2].miss_rate, 0.1);
+  EXPECT_EQ(sensors[2].position_noise_m, 0.2);
+  EXPECT_EQ(sensors[2].speed_noise_mps, 0.3);
+  EXPECT_EQ(sensors[2].latency_ms, 40.0);
 }
 
 TEST(EngineConfig, RefusesAGuardThatIsWiderThanTheStandstill) {

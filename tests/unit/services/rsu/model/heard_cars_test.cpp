@@ -75,5 +75,30 @@ TEST(HeardCars, TakeNoOldNewsAndNoCarThatWasNeverOnItsWay) {
   EXPECT_FALSE(cars.last_crossing_s(kLane));
 }
 
+TEST(HeardCars, HaveNotCrossedWhenAnErrorPutsThemOffTheRoadFarFromTheLine) {
+  HeardCars cars(kRoad);
+  cars.hear(report(1, 20, 300.0));
+  CarReport aside = report(1, 21, 299.0);
+  aside.place.centre_y_m = 20.0;
+  cars.hear(aside);
+  cars.arrange(21);
+  EXPECT_FALSE(cars.last_crossing_s(kLane));
+  EXPECT_TRUE(cars.cars(kLane).empty());
+  cars.hear(report(1, 22, 298.0));
+  cars.arrange(22);
+  EXPECT_EQ(cars.cars(kLane).size(), 1U);
+}
+
+TEST(HeardCars, AreNotYoungerThanNowWhenTheirClockIsAhead) {
+  HeardCars cars(kRoad);
+  cars.hear(report(1, 25, 80.0));
+  cars.arrange(20);
+  ASSERT_EQ(cars.cars(kLane).size(), 1U);
+  EXPECT_EQ(cars.cars(kLane)[0].age, 0);
+  cars.hear(report(1, 26, 79.0));  // the next one is news
+  cars.arrange(21);
+  EXPECT_NEAR(cars.cars(kLane)[0].distance_m, 79.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace lukou
