@@ -183,5 +183,27 @@ TEST(RoadsideSensors, DrawTheSameWhateverTheOthersDo) {
   EXPECT_GT(both.size(), alone.size());
 }
 
+TEST(RoadsideSensors, DrawTheSameWhateverGuidanceDoesToTheCar) {
+  const SensorParameters noisy = {.from_m = 0.0, .to_m = 500.0, .position_noise_m = 1.0, .speed_noise_mps = 0.5};
+  const EngineParameters parameters = with_arrivals(calm_parameters(), {0.05});
+  Ride plain(parameters);
+  Ride guided(parameters);
+  RoadsideSensors of_plain(1, {noisy});
+  RoadsideSensors of_guided(1, {noisy});
+  for (Step step = 1; step < 200; ++step) {
+    plain.step();
+    const Advice brake = guided.cars().empty() ? Advice{} : guided.advise(0, -0.3);
+    guided.step({&brake, guided.cars().empty() ? 0U : 1U});
+    const auto a = of_plain.look(step, plain.engine());
+    const auto b = of_guided.look(step, guided.engine());
+    ASSERT_EQ(a.size(), 1U);
+    ASSERT_EQ(b.size(), 1U);
+    EXPECT_NEAR(a[0].x_m - plain.cars()[0].motion.position_m, b[0].x_m - guided.cars()[0].motion.position_m, 1e-9);
+    EXPECT_EQ(a[0].y_m, b[0].y_m);
+    EXPECT_EQ(a[0].track, b[0].track);
+  }
+  EXPECT_GT(plain.cars()[0].motion.position_m, guided.cars()[0].motion.position_m + 10.0);
+}
+
 }  // namespace
 }  // namespace lukou::traffic
