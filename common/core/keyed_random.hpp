@@ -21,6 +21,8 @@ enum class Purpose : std::uint16_t {
   kRadioLoss = 12,           ///< independent loss
   kRadioBurst = 13,          ///< transition between the states of a bursty link
   kRadioDuplicate = 14,      ///< whether a frame is heard twice
+  kCompliance = 35,          ///< how a driver takes advice, compared with the shares; entity = vehicle
+  kDriverGain = 36,          ///< how strongly a human follows a command; entity = vehicle
   kTest = 100,               ///< tests
 };
 

@@ -24,6 +24,7 @@ class Checker {
     fields_of(scenario_, {});
     demands();
     drivers();
+    compliance();
     links();
     for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
     return std::move(findings_);
@@ -161,6 +162,18 @@ class Checker {
               number_text(d.stop_speed_kmh()) + " km/h",
           {field("stop_speed_kmh")});
     }
+  }
+
+  void compliance() {
+    const Compliance& said = scenario_.vehicles().compliance();
+    const FieldPath path = path_to({"vehicles", "compliance"});
+    const double human = said.human_share();
+    const double ignoring = said.ignoring_share();
+    if (human < 0.0 || ignoring < 0.0 || human > 1.0 || ignoring > 1.0 || human + ignoring <= 1.0 + 1e-9) return;
+    add(extended(path, "human_share"),
+        "is " + number_text(human) + ", must be within [0, 1 - ignoring_share], [0, " + number_text(1.0 - ignoring) +
+            "]",
+        {extended(path, "ignoring_share")});
   }
 
   void links() {

@@ -17,5 +17,6 @@ Action add_inspect(CLI::App& app);
 Action add_ctl(CLI::App& app);
 Action add_doctor(CLI::App& app);
 Action add_algorithms(CLI::App& app);
+Action add_why(CLI::App& app);
 
 }  // namespace lukou
