@@ -18,11 +18,12 @@ void TrafficBatch::clear() {
   // Keeps the storage: steady steps allocate nothing.
   const auto empty = [](auto&... columns) { (columns.clear(), ...); };
   empty(vehicle, lane, state, equipped, position_m, speed_mps, acceleration_mps2, commanded_mps2, noise_mps2);
+  empty(guidance, bound_by, missed);
   empty(arrived, waiting, arrived_equipped, waiting_equipped);
   empty(entered_vehicle, entered_lane, entered_equipped, entered_speed_mps, entered_desired_speed_mps);
   empty(crossed_vehicle, crossed_time_s, crossed_aspect, crossed_committed);
   empty(left_vehicle, left_time_s);
-  empty(fate_vehicle, fate_rsu, fate_sequence, fate, fate_again);
+  empty(fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded_mps2);
   answers_malformed = 0;
   guard_interventions = 0;
   overflow = 0;

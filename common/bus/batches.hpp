@@ -75,7 +75,7 @@ enum class AdviceFate : std::uint8_t {
   kChangedFollowing = 3,  ///< FOLLOWING: the following law asked for less
   kChangedRed = 4,        ///< FOLLOWING: braking for a light that is not green asked for less
   kPastStopLine = 5,      ///< refused: the car has crossed its stop line
-  kExpired = 6,           ///< refused: its lifetime had ended before a step could use it
+  kExpired = 6,           ///< refused: it came in time, but its life ended before a step could use it
   kSuperseded = 7,        ///< refused: a newer advice for the car came before a step could use it
   kUnknownVehicle = 8,    ///< refused: nobody on the road has this temporary id
   kMalformed = 9,         ///< refused: undecodable, not a number, or out of the standard's range
@@ -85,8 +85,43 @@ enum class AdviceFate : std::uint8_t {
   kLostRange = 13,        ///< ... the car was out of range
   kStale = 14,            ///< dropped: a word issued later had reached the car before
   kDuplicate = 15,        ///< dropped: the same frame had reached the car before
+  kLostPathLoss = 16,     ///< its frame did not reach the car: too weak there
+  kLostCollision = 17,    ///< ... another station sent in the same resource
+  kLostHalfDuplex = 18,   ///< ... the car was sending itself
+  kLostOutage = 19,       ///< ... a planned outage
+  kNotComplied = 20,      ///< refused: the driver does not follow
+  kChangedDriver = 21,    ///< used, but late or imperfectly: the driver is human
+  kLate = 22,             ///< refused: it came after its life had ended
 };
-inline constexpr std::size_t kAdviceFates = 16;
+inline constexpr std::size_t kAdviceFates = 24;
+
+/// Where a car stands with guidance. The values stand on the bus.
+enum class GuidanceState : std::uint8_t {
+  kNotEquipped = 0,   ///< has no on-board unit
+  kNeverAdvised = 1,  ///< no advice has ever reached it in time
+  kInForce = 2,       ///< the driver acts on an advice
+  kReleased = 3,      ///< the newest word was a release
+  kExpired = 4,       ///< the life of the last advice ended, no newer word came
+  kRsuUnheard = 5,    ///< the unit gave the last advice up: it had heard nothing of its RSU for too long
+  kNotComplied = 6,   ///< an advice is shown, but the driver does not follow
+  kPastStopLine = 7,  ///< guidance does not apply any more
+  kReacting = 8,      ///< an advice is shown, the driver will follow soon
+};
+inline constexpr std::size_t kGuidanceStates = 9;
+
+/// What decided a car's acceleration in a step. The values stand on the bus.
+enum class BoundBy : std::uint8_t {
+  kOwnWish = 0,   ///< nothing hindered the driver
+  kCarAhead = 1,  ///< braking for the car ahead
+  kLight = 2,     ///< braking to stand before the line, or before the standing block there
+  kAdvice = 3,    ///< the advice in force, as the driver took it
+  kLimit = 4,     ///< a limit of acceleration or speed cut the advice in force
+  kGuard = 5,     ///< the guard: the car ahead, or the stop line
+  kBlock = 6,     ///< starts or stops with the block at the stop line, behind its first car
+};
+
+/// In TrafficBatch::missed: no word was missed.
+inline constexpr std::uint8_t kNothingMissed = 255;
 
 /// Engine to recorder: the truth at t_step, with what happened in (t_step-1, t_step].
 struct TrafficBatch {
@@ -102,6 +137,10 @@ struct TrafficBatch {
   std::vector<double> acceleration_mps2;  ///< of the step that ended
   std::vector<double> commanded_mps2;     ///< the advice in force in that step, NaN if none
   std::vector<double> noise_mps2;         ///< actuation noise of that step
+  std::vector<std::uint8_t> guidance;     ///< GuidanceState
+  std::vector<std::uint8_t> bound_by;     ///< BoundBy
+  std::vector<std::uint8_t>
+      missed;  ///< AdviceFate of the newest word, if it was lost or late; kNothingMissed: it was not
 
   std::vector<std::uint32_t> arrived;           ///< per approach (4): arrivals since step 0
   std::vector<std::uint32_t> waiting;           ///< per approach (4): arrived, not yet on the road
@@ -132,6 +171,8 @@ struct TrafficBatch {
   std::vector<std::uint32_t> fate_sequence;  ///< of the frame
   std::vector<std::uint8_t> fate;            ///< AdviceFate
   std::vector<std::uint8_t> fate_again;
+  std::vector<Step> fate_issued;            ///< -1 = not decodable
+  std::vector<double> fate_commanded_mps2;  ///< as decoded; NaN if it was not
 
   std::uint32_t answers_malformed = 0;     ///< advice that the RSUs' algorithms gave and no message could carry
   std::uint32_t guard_interventions = 0;   ///< cars that the guard braked in this step

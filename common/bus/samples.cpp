@@ -70,6 +70,7 @@ void traffic_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.equipped, sample.equipped), move(plain.position_m, sample.position_m);
   move(plain.speed_mps, sample.speed_mps), move(plain.acceleration_mps2, sample.acceleration_mps2);
   move(plain.commanded_mps2, sample.commanded_mps2), move(plain.noise_mps2, sample.noise_mps2);
+  move(plain.guidance, sample.guidance), move(plain.bound_by, sample.bound_by), move(plain.missed, sample.missed);
   move(plain.arrived, sample.arrived), move(plain.waiting, sample.waiting);
   move(plain.arrived_equipped, sample.arrived_equipped), move(plain.waiting_equipped, sample.waiting_equipped);
   move(plain.entered_vehicle, sample.entered_vehicle), move(plain.entered_lane, sample.entered_lane);
@@ -80,7 +81,8 @@ void traffic_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.left_vehicle, sample.left_vehicle), move(plain.left_time_s, sample.left_time_s);
   move(plain.fate_vehicle, sample.fate_vehicle), move(plain.fate_rsu, sample.fate_rsu);
   move(plain.fate_sequence, sample.fate_sequence), move(plain.fate, sample.fate);
-  move(plain.fate_again, sample.fate_again), move(plain.heard_epoch, sample.heard_epoch);
+  move(plain.fate_again, sample.fate_again), move(plain.fate_issued, sample.fate_issued);
+  move(plain.fate_commanded_mps2, sample.fate_commanded_mps2), move(plain.heard_epoch, sample.heard_epoch);
 }
 
 template <class Plain, class Sample, class Move>

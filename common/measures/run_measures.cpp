@@ -39,6 +39,7 @@ void RunMeasures::add(const TrafficBatch& batch) {
   LUKOU_EXPECT(batch.step == step_ + 1);
   step_ = batch.step;
   finished_.clear();
+  finished_stops_.clear();
   if (step_ > warmup_step_) ++measured_steps_;
   add_entries(batch);
   add_motion(batch);
@@ -102,24 +103,67 @@ void RunMeasures::add_motion(const TrafficBatch& batch) {
     const double speed_mps = batch.speed_mps[i];
     LaneTotals& lane = lanes_[batch.lane[i]];
     if (speed_mps < parameters_.stop_speed_mps) {
+      if (seen.armed) begin_stop(batch, i, seen);
       ++seen.car.standing_steps;
+      ++seen.stop->standing_steps;
       ++lane.standing_steps;
       ++lane.standing_now;
       if (measured) ++sums(seen).queued_steps;
-      if (seen.armed) {
-        ++seen.car.stops;
-        ++lane.stops;
-        seen.armed = false;
-      }
     } else if (speed_mps > parameters_.stop_rearm_mps) {
       seen.armed = true;
+      if (seen.stop) end_stop(seen);
     }
   }
+}
+
+void RunMeasures::begin_stop(const TrafficBatch& batch, std::size_t car, Record& seen) {
+  const bool behind = car > 0 && batch.lane[car - 1] == batch.lane[car] && batch.state[car - 1] != kExit;
+  const StopFacts facts{.guidance = static_cast<GuidanceState>(batch.guidance[car]),
+                        .bound_by = static_cast<BoundBy>(batch.bound_by[car]),
+                        .ahead_stands = behind && batch.speed_mps[car - 1] < parameters_.stop_speed_mps,
+                        .missed = batch.missed[car],
+                        .rsus_silent = std::ranges::all_of(batch.heard_epoch, [](auto epoch) { return epoch == 0; })};
+  const StopCause cause = stop_cause(facts);
+  const bool missed = facts.missed != kNothingMissed;
+  seen.stop = FinishedStop{.ended = step_,
+                           .vehicle = seen.car.vehicle,
+                           .lane = seen.car.lane,
+                           .equipped = seen.car.equipped,
+                           .began = step_,
+                           .distance_m = parameters_.road.approach_m - batch.position_m[car],
+                           .standing_steps = 0,
+                           .cause = name(cause),
+                           .guidance = name(facts.guidance),
+                           .missed = missed ? name(static_cast<AdviceFate>(facts.missed)) : std::string_view()};
+  seen.armed = false;
+  ++seen.car.stops;
+  ++lanes_[batch.lane[car]].stops;
+  ++totals_.stops_total;
+  ++totals_.stops_by_cause[static_cast<std::size_t>(cause)];
+}
+
+void RunMeasures::end_stop(Record& seen) {
+  seen.stop->ended = step_;
+  finished_stops_.push_back(*seen.stop);
+  seen.stop.reset();
+}
+
+std::vector<FinishedStop> RunMeasures::lasting_stops() const {
+  std::vector<FinishedStop> lasting;
+  for (const Records& records : records_) {
+    for (const Record& seen : records.cars) {
+      if (!seen.stop) continue;
+      lasting.push_back(*seen.stop);
+      lasting.back().ended = step_;
+    }
+  }
+  return lasting;
 }
 
 void RunMeasures::add_crossings(const TrafficBatch& batch) {
   for (std::size_t i = 0; i < batch.crossed_vehicle.size(); ++i) {
     Record& crossing = record(batch.crossed_vehicle[i]);
+    if (crossing.stop) end_stop(crossing);
     FinishedCar& car = crossing.car;
     car.act_time_s = batch.crossed_time_s[i] - car.entered_s;
     car.delta_s = car.act_time_s - car.theoretical_time_s;

@@ -11,6 +11,8 @@
 #include "common/intersection/geometry.hpp"
 #include "common/intersection/lane.hpp"
 #include "common/intersection/signal_plan.hpp"
+#include "common/measures/rows.hpp"
+#include "common/measures/stop_cause.hpp"
 
 namespace lukou {
 
@@ -23,22 +25,6 @@ struct MeasureParameters {
   double stop_speed_mps = 5.0 / 3.6;  ///< slower is standing
   double stop_rearm_mps = 8.0 / 3.6;  ///< a car has to be faster than this before it can stop once more
   double vehicle_length_m = 4.5;
-};
-
-/// A row of car.csv: a car that has left the end of its exit.
-struct FinishedCar {
-  std::uint32_t vehicle = 0;
-  Lane lane{};
-  bool equipped = false;
-  double entered_s = 0.0;
-  double initial_speed_mps = 0.0;
-  double theoretical_time_s = 0.0;   ///< entrance to stop line
-  double act_time_s = 0.0;           ///< entrance to stop line
-  double delta_s = 0.0;              ///< act_time - theoretical_time
-  double delay_s = 0.0;              ///< entrance to the end of the exit, less the time of the same driver unhindered
-  std::uint32_t stops = 0;           ///< before the stop line
-  std::uint32_t standing_steps = 0;  ///< before the stop line
-  double left_s = 0.0;
 };
 
 /// Totals of one lane since step 0, and what stands there now.
@@ -78,6 +64,8 @@ struct RunFigures {
   std::array<std::uint64_t, kAdviceFates>
       advice_by_fate{};  ///< by AdviceFate; each advice once, by its last fate; duplicates on top
   [[nodiscard]] std::uint64_t advice(AdviceFate fate) const { return advice_by_fate[static_cast<std::size_t>(fate)]; }
+  std::uint64_t stops_total = 0;                            ///< of all cars, since step 0
+  std::array<std::uint64_t, kStopCauses> stops_by_cause{};  ///< by StopCause
   std::uint64_t guard_interventions = 0;
   std::uint64_t collisions = 0;     ///< a car came closer to the one ahead than a vehicle's length, head to head
   std::uint64_t reversals = 0;      ///< steps in which a car moved backwards
@@ -95,6 +83,10 @@ class RunMeasures {
 
   /// Cars that left in the newest step, in the order in which they left.
   [[nodiscard]] std::span<const FinishedCar> finished() const { return finished_; }
+  /// Stops that ended in the newest step: of cars that are fast again, lane after lane, then of cars that crossed.
+  [[nodiscard]] std::span<const FinishedStop> finished_stops() const { return finished_stops_; }
+  /// Stops that last, as if they ended now; by approach, then by vehicle.
+  [[nodiscard]] std::vector<FinishedStop> lasting_stops() const;
   [[nodiscard]] const std::array<LaneTotals, kLanes>& lanes() const { return lanes_; }
   /// Cars since step 0.
   [[nodiscard]] std::uint64_t entered() const { return equipped_.entered + unequipped_.entered; }
@@ -106,6 +98,7 @@ class RunMeasures {
   /// What is known of a car that is on the road.
   struct Record {
     FinishedCar car;
+    std::optional<FinishedStop> stop;  ///< that lasts
     double free_time_s = 0.0;
     double position_m = 0.0;
     bool armed = true;  ///< would count a stop
@@ -143,6 +136,8 @@ class RunMeasures {
   Sums& sums(const Record& record) { return record.car.equipped ? equipped_ : unequipped_; }
   void add_entries(const TrafficBatch& batch);
   void add_motion(const TrafficBatch& batch);
+  void begin_stop(const TrafficBatch& batch, std::size_t car, Record& seen);
+  void end_stop(Record& seen);
   void add_crossings(const TrafficBatch& batch);
   void add_departures(const TrafficBatch& batch);
   void add_fates(const TrafficBatch& batch);
@@ -154,6 +149,7 @@ class RunMeasures {
   std::array<Records, kApproaches> records_;
   std::array<LaneTotals, kLanes> lanes_{};
   std::vector<FinishedCar> finished_;
+  std::vector<FinishedStop> finished_stops_;
   Sums equipped_;
   Sums unequipped_;
   RunFigures totals_;  ///< the counts of it

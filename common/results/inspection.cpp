@@ -6,6 +6,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "common/results/event_tables.hpp"
 #include "common/results/result_folder.hpp"
 #include "common/results/table_reader.hpp"
 #include "common/results/tables.hpp"
@@ -28,6 +29,7 @@ class Inspector {
     read_manifest();
     step_tables();
     table(kCarTable, car_columns(), no_check);
+    event_tables();
     required_files();
     const auto files = result_files(folder_);
     if (!files) return files.error();
@@ -90,6 +92,19 @@ class Inspector {
           "goes to step " + std::to_string(rows[i]) + ", but the tables are complete to step " +
               std::to_string(found_.complete_to_step) + " only",
           true);
+    }
+  }
+
+  /// Tables that the scenario may leave out: their rows come in the order of their steps, none beyond the last one.
+  void event_tables() {
+    for (const auto& [name, columns] :
+         {std::pair(kGuidanceTable, guidance_columns()), {kStopsTable, stops_columns()}}) {
+      std::error_code code;
+      if (!fs::is_regular_file(folder_ / name, code)) continue;
+      Step before = 0;
+      table(name, columns, [&](const std::vector<std::string_view>& cells, std::int64_t /*row*/) {
+        return check_event_row(cells, found_.complete_to_step, before);
+      });
     }
   }
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "common/core/contract.hpp"
+#include "common/results/event_tables.hpp"
 #include "common/results/inspection.hpp"
 #include "common/results/result_folder.hpp"
 #include "common/results/table_reader.hpp"
@@ -108,6 +109,10 @@ Expected<Manifest> repair(const fs::path& folder, const Manifest& facts) {
   }
   const auto cars = with_columns(folder / kCarTable, car_columns());
   if (!cars) return cars.error();
+  for (const auto& [name, columns] : {std::pair(kStopsTable, stops_columns()), {kGuidanceTable, guidance_columns()}}) {
+    if (!fs::is_regular_file(folder / name, code)) continue;  // the scenario did not ask for it
+    if (auto named = with_columns(folder / name, columns); !named) return named.error();
+  }
 
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder, code)) names.push_back(entry.path().filename().string());

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "common/core/hash.hpp"
 
@@ -24,6 +25,13 @@ void split(std::string_view row, std::vector<std::string_view>& cells) {
     if (to == std::string_view::npos) return;
     from = to + 1;
   }
+}
+
+std::optional<Step> step_of(std::string_view cell) {
+  Step step = 0;
+  const auto result = std::from_chars(cell.data(), cell.data() + cell.size(), step);
+  if (result.ec != std::errc{} || result.ptr != cell.data() + cell.size()) return std::nullopt;
+  return step;
 }
 
 /// Takes lines one by one and judges them.
@@ -89,13 +97,19 @@ Expected<TableScan> scan_table(const std::filesystem::path& file, const RowCheck
 }
 
 std::string check_step_row(const std::vector<std::string_view>& cells, std::int64_t row) {
-  std::int64_t step = 0;
-  const char* begin = cells[0].data();
-  const char* end = begin + cells[0].size();
-  const auto result = std::from_chars(begin, end, step);
-  if (result.ec != std::errc{} || result.ptr != end || step != row) {
+  if (step_of(cells[0]) != row) {
     return "is of step `" + std::string(cells[0]) + "`, must be of step " + std::to_string(row);
   }
+  return "";
+}
+
+std::string check_event_row(const std::vector<std::string_view>& cells, Step last, Step& before) {
+  const auto step = step_of(cells[0]);
+  if (!step || *step < before || *step > last) {
+    return "is of step `" + std::string(cells[0]) + "`, must be of one from " + std::to_string(before) + " to " +
+           std::to_string(last);
+  }
+  before = *step;
   return "";
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/core/expected.hpp"
+#include "common/core/step.hpp"
 
 namespace lukou::results {
 
@@ -29,6 +30,9 @@ Expected<TableScan> scan_table(const std::filesystem::path& file, const RowCheck
 
 /// Row n of a table of steps must be of step n.
 std::string check_step_row(const std::vector<std::string_view>& cells, std::int64_t row);
+
+/// A row of a table of events must be of a step not before `before`, which it moves on, and not after `last`.
+std::string check_event_row(const std::vector<std::string_view>& cells, Step last, Step& before);
 
 /// SHA-256 of a file's bytes.
 Expected<std::string> file_sha256(const std::filesystem::path& file);

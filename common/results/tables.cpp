@@ -47,18 +47,18 @@ Expected<RunTables> RunTables::create(const std::filesystem::path& folder) {
 RunTables::RunTables(TableWriter car, TableWriter stop, TableWriter road, TableWriter stop_time)
     : car_(std::move(car)), stop_(std::move(stop)), road_(std::move(road)), stop_time_(std::move(stop_time)) {}
 
-void RunTables::add_car(const CarRow& row) {
+void RunTables::add_car(const FinishedCar& row) {
   car_.count(row.vehicle);
   car_.name(name(row.lane));
   car_.whole(row.equipped ? 1 : 0);
   car_.real(row.entered_s);
-  car_.real(row.init_velocity_mps);
+  car_.real(row.initial_speed_mps);
   car_.real(row.theoretical_time_s);
   car_.real(row.act_time_s);
   car_.real(row.delta_s);
   car_.real(row.delay_s);
   car_.count(row.stops);
-  car_.tenths(row.stop_time_steps);
+  car_.tenths(row.standing_steps);
   car_.real(row.left_s);
   car_.end_row();
 }

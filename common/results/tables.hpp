@@ -9,26 +9,11 @@
 #include "common/core/expected.hpp"
 #include "common/core/step.hpp"
 #include "common/intersection/lane.hpp"
+#include "common/measures/rows.hpp"
 #include "common/results/manifest.hpp"
 #include "common/results/table.hpp"
 
 namespace lukou::results {
-
-/// A car that has left the end of its exit.
-struct CarRow {
-  std::uint32_t vehicle = 0;
-  Lane lane{};
-  bool equipped = false;
-  double entered_s = 0.0;
-  double init_velocity_mps = 0.0;
-  double theoretical_time_s = 0.0;  ///< entrance to stop line
-  double act_time_s = 0.0;          ///< entrance to stop line
-  double delta_s = 0.0;             ///< act_time - theoretical_time
-  double delay_s = 0.0;
-  std::uint64_t stops = 0;
-  std::int64_t stop_time_steps = 0;  ///< steps stood
-  double left_s = 0.0;
-};
 
 /// State after a step: stops.
 struct StopRow {
@@ -71,7 +56,7 @@ class RunTables {
   static Expected<RunTables> create(const std::filesystem::path& folder);
 
   /// A car that left in the step whose rows come next.
-  void add_car(const CarRow& row);
+  void add_car(const FinishedCar& row);
   /// Requires that `step` is the one after the last.
   void add_step(Step step, const StopRow& stop, const RoadRow& road, const StopTimeRow& stop_time);
 

@@ -24,6 +24,7 @@ class Checker {
     fields_of(scenario_, {});
     demands();
     drivers();
+    compliance();
     links();
     sensors();
     for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
@@ -184,6 +185,18 @@ class Checker {
       add(extended(path, "to_m"), given + "at most traffic.approach_length_m, " + number_text(approach_m) + " m",
           {path_to({"traffic", "approach_length_m"})});
     }
+  }
+
+  void compliance() {
+    const Compliance& said = scenario_.vehicles().compliance();
+    const FieldPath path = path_to({"vehicles", "compliance"});
+    const double human = said.human_share();
+    const double ignoring = said.ignoring_share();
+    if (human < 0.0 || ignoring < 0.0 || human > 1.0 || ignoring > 1.0 || human + ignoring <= 1.0 + 1e-9) return;
+    add(extended(path, "human_share"),
+        "is " + number_text(human) + ", must be within [0, 1 - ignoring_share], [0, " + number_text(1.0 - ignoring) +
+            "]",
+        {extended(path, "ignoring_share")});
   }
 
   void links() {

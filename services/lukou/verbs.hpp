@@ -18,5 +18,6 @@ Action add_ctl(CLI::App& app);
 Action add_doctor(CLI::App& app);
 Action add_algorithms(CLI::App& app);
 Action add_new(CLI::App& app);
+Action add_why(CLI::App& app);
 
 }  // namespace lukou

@@ -18,6 +18,8 @@ RecorderConfig recorder_config(const scenario::Resolved& scenario) {
                      .stop_rearm_mps = s.driving().stop_rearm_kmh() / 3.6,
                      .vehicle_length_m = s.vehicles().length_m()};
   config.stop_on_overflow = s.run().on_overflow() == scenario::Overflow::STOP;
+  config.record_stops = s.record().stops();
+  config.record_guidance = s.record().guidance();
   config.seed = protocol.seed;
   config.end = protocol.end;
   return config;

@@ -9,6 +9,8 @@ namespace lukou {
 struct RecorderConfig {
   MeasureParameters measures;
   bool stop_on_overflow = true;
+  bool record_stops = true;
+  bool record_guidance = false;
   std::uint64_t seed = 0;
   Step end = 0;
 };

@@ -48,34 +48,25 @@ results::RadioRow row_of(const ReceptionFigures& figures) {
           .latency_p99_ms = figures.latency_p99_ms.value_or(kUnknown)};
 }
 
-results::CarRow row_of(const FinishedCar& car) {
-  return {.vehicle = car.vehicle,
-          .lane = car.lane,
-          .equipped = car.equipped,
-          .entered_s = car.entered_s,
-          .init_velocity_mps = car.initial_speed_mps,
-          .theoretical_time_s = car.theoretical_time_s,
-          .act_time_s = car.act_time_s,
-          .delta_s = car.delta_s,
-          .delay_s = car.delay_s,
-          .stops = car.stops,
-          .stop_time_steps = car.standing_steps,
-          .left_s = car.left_s};
-}
-
 }  // namespace
 
 Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, std::filesystem::path folder) {
   auto tables = results::RunTables::create(folder);
   if (!tables) return tables.error();
-  return RecorderNode(scenario, std::move(folder), std::move(tables).value());
+  const RecorderConfig config = recorder_config(scenario);
+  auto events =
+      results::EventTables::create(folder, {.stops = config.record_stops, .guidance = config.record_guidance});
+  if (!events) return events.error();
+  return RecorderNode(scenario, std::move(folder), std::move(tables).value(), std::move(events).value());
 }
 
-RecorderNode::RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables)
+RecorderNode::RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables,
+                           results::EventTables events)
     : config_(recorder_config(scenario)),
       scenario_hash_(scenario::hash(scenario)),
       folder_(std::move(folder)),
       tables_(std::move(tables)),
+      events_(std::move(events)),
       radio_(folder_),
       measures_(config_.measures) {}
 
@@ -91,7 +82,8 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
   step_ = traffic.step;
   measures_.add(traffic);
   note_hearing(traffic);
-  for (const FinishedCar& car : measures_.finished()) tables_.add_car(row_of(car));
+  for (const FinishedCar& car : measures_.finished()) tables_.add_car(car);
+  add_events(traffic);
   if (step_ > 0) add_rows();
   look_for_anomaly(traffic);
   if (!traffic.reception.well_formed()) {
@@ -102,13 +94,21 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
     if (auto done = add_radio_rows(); !done) return done;
   }
   std::swap(picture_, traffic);
-  if (tables_.buffered_bytes() < kFlushBytes) return Done{};
+  if (tables_.buffered_bytes() + events_.buffered_bytes() < kFlushBytes) return Done{};
   return flush();
 }
 
 Expected<Done> RecorderNode::flush() {
   if (auto done = radio_.flush(); !done) return done;
+  if (auto done = events_.flush(); !done) return done;
   return tables_.flush();
+}
+
+void RecorderNode::add_events(const TrafficBatch& traffic) {
+  for (const FinishedStop& stop : measures_.finished_stops()) events_.add(stop);
+  if (!config_.record_guidance) return;
+  ledger_.add(traffic);
+  for (const SettledAdvice& advice : ledger_.settled()) events_.add(advice);
 }
 
 Expected<Done> RecorderNode::add_radio_rows() {
@@ -194,7 +194,11 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   if (complete_to > radio_rows_to_) {
     if (auto done = add_radio_rows(); !done) return done;  // the second that the end has cut short
   }
+  // What lasts at the end ends with it.
+  for (const FinishedStop& stop : measures_.lasting_stops()) events_.add(stop);
+  for (const SettledAdvice& advice : ledger_.close()) events_.add(advice);
   if (auto done = radio_.sync(); !done) return done;
+  if (auto done = events_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
   const std::string summary =
       summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any());
@@ -209,6 +213,7 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
                              .ended_by = ended_by,
                              .culprit = culprit,
                              .files = tables_.entries()};
+  for (results::FileEntry& entry : events_.entries()) manifest.files.push_back(std::move(entry));
   if (auto entry = radio_.entry()) manifest.files.push_back(*entry);
   manifest.files.push_back({"directives.textproto", sha256_hex(directives), std::nullopt});
   manifest.files.push_back({"scenario.textproto", scenario_hash_, std::nullopt});

@@ -9,7 +9,9 @@
 #include "common/core/expected.hpp"
 #include "common/intersection/signal_promise.hpp"
 #include "common/lockstep/messages.hpp"
+#include "common/measures/advice_ledger.hpp"
 #include "common/measures/reception_measures.hpp"
+#include "common/results/event_tables.hpp"
 #include "common/results/radio_table.hpp"
 #include "common/results/tables.hpp"
 #include "common/scenario/directive_log.hpp"
@@ -41,8 +43,10 @@ class RecorderNode {
   Expected<Done> close(const std::string& ended_by, const std::string& culprit);
 
  private:
-  RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables);
+  RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables,
+               results::EventTables events);
   void add_rows();
+  void add_events(const TrafficBatch& traffic);
   /// Rows of radio.csv for the second that ends now.
   Expected<Done> add_radio_rows();
   void note_hearing(const TrafficBatch& traffic);
@@ -52,8 +56,10 @@ class RecorderNode {
   std::string scenario_hash_;
   std::filesystem::path folder_;
   results::RunTables tables_;
+  results::EventTables events_;
   results::RadioTable radio_;
   RunMeasures measures_;
+  AdviceLedger ledger_;
   ReceptionMeasures reception_;
   Step radio_rows_to_ = 0;  ///< the step of the newest rows of radio.csv
   SignalPromise promise_;

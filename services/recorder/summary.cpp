@@ -28,18 +28,26 @@ Json group_json(const GroupFigures& group) {
           {"mean_abs_acceleration_mps2", number(group.mean_abs_acceleration_mps2)}};
 }
 
-constexpr std::pair<AdviceFate, const char*> kRefused[] = {
-    {AdviceFate::kPastStopLine, "past_stop_line"}, {AdviceFate::kExpired, "expired"},
-    {AdviceFate::kSuperseded, "superseded"},       {AdviceFate::kUnknownVehicle, "unknown_vehicle"},
-    {AdviceFate::kMalformed, "malformed"},         {AdviceFate::kOutOfLimit, "limit"}};
+constexpr std::pair<AdviceFate, const char*> kRefused[] = {{AdviceFate::kPastStopLine, "past_stop_line"},
+                                                           {AdviceFate::kExpired, "expired"},
+                                                           {AdviceFate::kSuperseded, "superseded"},
+                                                           {AdviceFate::kUnknownVehicle, "unknown_vehicle"},
+                                                           {AdviceFate::kMalformed, "malformed"},
+                                                           {AdviceFate::kOutOfLimit, "limit"},
+                                                           {AdviceFate::kLate, "late"},
+                                                           {AdviceFate::kNotComplied, "not_complied"}};
 constexpr std::pair<AdviceFate, const char*> kLost[] = {
-    {AdviceFate::kLostRandom, "random"}, {AdviceFate::kLostBurst, "burst"}, {AdviceFate::kLostRange, "range"}};
+    {AdviceFate::kLostRandom, "random"},       {AdviceFate::kLostBurst, "burst"},
+    {AdviceFate::kLostRange, "range"},         {AdviceFate::kLostPathLoss, "path_loss"},
+    {AdviceFate::kLostCollision, "collision"}, {AdviceFate::kLostHalfDuplex, "half_duplex"},
+    {AdviceFate::kLostOutage, "outage"}};
 constexpr std::pair<AdviceFate, const char*> kDropped[] = {{AdviceFate::kStale, "stale"},
                                                            {AdviceFate::kDuplicate, "duplicate"}};
 constexpr std::pair<AdviceFate, const char*> kChanged[] = {{AdviceFate::kChangedLimit, "limit"},
                                                            {AdviceFate::kChangedGuard, "guard"},
                                                            {AdviceFate::kChangedFollowing, "following"},
-                                                           {AdviceFate::kChangedRed, "red"}};
+                                                           {AdviceFate::kChangedRed, "red"},
+                                                           {AdviceFate::kChangedDriver, "driver"}};
 
 template <std::size_t N>
 Json fates_json(const RunFigures& figures, const std::pair<AdviceFate, const char*> (&fates)[N]) {
@@ -58,6 +66,10 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
   json["unequipped"] = group_json(figures.unequipped);
+  json["stops_total"] = figures.stops_total;
+  for (std::size_t cause = 0; cause < kStopCauses; ++cause) {
+    json["stops_by_cause"][std::string(kStopCauseNames[cause])] = figures.stops_by_cause[cause];
+  }
   json["advice_sent"] = figures.advice_sent;
   json["advice_applied"] = figures.advice(AdviceFate::kApplied);
   json["advice_refused"] = fates_json(figures, kRefused);

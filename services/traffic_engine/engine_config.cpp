@@ -138,6 +138,14 @@ Expected<EngineConfig> engine_config(const scenario::Resolved& scenario) {
   config.traffic.overflow_wait_s = from.run().overflow_wait_s();
   config.traffic.vehicles = vehicle_parameters(from.vehicles());
   config.traffic.equipped_ratio = from.vehicles().equipped_ratio();
+  const scenario::OnBoardUnit& unit = from.vehicles().on_board_unit();
+  config.traffic.unit = {.fallback_s = unit.fallback_s(), .rsu_lost_after_s = unit.rsu_lost_after_s()};
+  const scenario::Compliance& compliance = from.vehicles().compliance();
+  config.traffic.compliance = {.human_share = compliance.human_share(),
+                               .ignoring_share = compliance.ignoring_share(),
+                               .reaction_s = compliance.reaction_s(),
+                               .gain_deviation = compliance.gain_deviation(),
+                               .threshold_mps2 = compliance.threshold_mps2()};
   config.traffic.driving = driving_parameters(from.driving());
   if (const auto fits = fit_together(config.traffic.driving); !fits) return fits.error();
   config.traffic.road = {.approach_m = from.traffic().approach_length_m(), .exit_m = from.traffic().exit_length_m()};

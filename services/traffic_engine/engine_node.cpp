@@ -1,6 +1,7 @@
 #include "services/traffic_engine/engine_node.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "common/core/contract.hpp"
@@ -56,6 +57,7 @@ void EngineNode::change(const EngineConfig& config) {
   }
   config_.traffic.equipped_ratio = config.traffic.equipped_ratio;
   engine_.change_equipped_ratio(config.traffic.equipped_ratio);
+  engine_.change_units(config.traffic.unit, config.traffic.compliance);
   config_.radio = config.radio;
   modem_.use(config.radio.downlink);
   unit_errors_.use(config.unit_errors);
@@ -96,9 +98,24 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
 }
 
 void EngineNode::hear(const RoadsideBatch& batch) {
+  if (!config_.radio.modelled) engine_.hear_rsu(batch.rsu, batch.step);
   for (std::size_t frame = 0; frame < batch.frames.size(); ++frame) {
-    if (batch.frames.kind[frame] != static_cast<std::uint8_t>(FrameKind::kRsc)) continue;
-    hear_coordination(batch, frame);
+    const auto kind = static_cast<FrameKind>(batch.frames.kind[frame]);
+    if (kind == FrameKind::kRsc) hear_coordination(batch, frame);
+    if (kind == FrameKind::kSpat && config_.radio.modelled) hear_spat(batch, frame);
+  }
+}
+
+void EngineNode::hear_spat(const RoadsideBatch& batch, std::size_t frame) {
+  const Step lost_after = step_at_or_after(engine_.parameters().unit.rsu_lost_after_s);
+  for (int i = 0; i < kLanes; ++i) {
+    const auto lane = static_cast<Lane>(i);
+    for (const traffic::Car& car : engine_.lane(lane).cars()) {
+      if (!car.unit.listens(batch.rsu, batch.step + 1, lost_after)) continue;
+      const Hop hop = hop_to(lane, car, batch, frame);
+      const Reception reception = modem_.receive(hop);
+      if (!reception.lost) spats_.add(reception, hop, {car.temporary_id, batch.rsu});
+    }
   }
 }
 
@@ -106,7 +123,8 @@ void EngineNode::hear_coordination(const RoadsideBatch& batch, std::size_t frame
   const std::uint32_t sequence = batch.frames.sequence[frame];
   const auto message = decode_rsc(batch.frames.payload_of(frame));
   if (!message) {
-    fates_.push_back({traffic::kNoVehicle, batch.rsu, sequence, AdviceFate::kMalformed});
+    fates_.push_back({traffic::kNoVehicle, batch.rsu, sequence, AdviceFate::kMalformed, -1,
+                      std::numeric_limits<double>::quiet_NaN()});
     return;
   }
   const Step issued = step_of_second_mark(batch.step, message.value().second_mark_ms);
@@ -138,23 +156,32 @@ void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch,
     advice_.push_back(advice);  // nobody is there to miss it: the engine says so
     return;
   }
-  const Pose pose = pose_on_path(engine_.parameters().road, target->lane, target->car->motion.position_m);
-  const PlanePoint car = centre_of_car({pose.x_m, pose.y_m}, pose.heading_rad, engine_.parameters().vehicles.length_m);
-  const Hop hop{.sender = batch.frames.sender[frame],
-                .receiver = advice.target,
-                .sequence = advice.sequence,
-                .sent = batch.step,
-                .distance_m = distance_m({batch.frames.antenna_x_m[frame], batch.frames.antenna_y_m[frame]}, car)};
+  const Hop hop = hop_to(target->lane, *target->car, batch, frame);
   const Reception reception = modem_.receive(hop);
   tally_.count_sent(reception);
   if (!reception.lost) {
     inbox_.add(reception, hop, advice);
   } else if (!advice.release) {
-    fates_.push_back({target->car->vehicle, advice.rsu, advice.sequence, fate_of(*reception.lost)});
+    const AdviceFate fate = fate_of(*reception.lost);
+    fates_.push_back(
+        {target->car->vehicle, advice.rsu, advice.sequence, fate, advice.issued, advice.acceleration_mps2});
+    engine_.miss(advice, static_cast<std::uint8_t>(fate));
   }
 }
 
+Hop EngineNode::hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& batch, std::size_t frame) const {
+  const traffic::EngineParameters& parameters = engine_.parameters();
+  const Pose pose = pose_on_path(parameters.road, lane, car.motion.position_m);
+  const PlanePoint antenna = centre_of_car({pose.x_m, pose.y_m}, pose.heading_rad, parameters.vehicles.length_m);
+  return {.sender = batch.frames.sender[frame],
+          .receiver = car.temporary_id,
+          .sequence = batch.frames.sequence[frame],
+          .sent = batch.step,
+          .distance_m = distance_m({batch.frames.antenna_x_m[frame], batch.frames.antenna_y_m[frame]}, antenna)};
+}
+
 void EngineNode::deliver(Step now) {
+  for (const auto& item : spats_.take(now)) engine_.hear_rsu(item.content.target, item.content.rsu, now);
   for (const auto& item : inbox_.take(now)) {
     const traffic::Advice& advice = item.content;
     tally_.count_delivered(item.arrival.latency_ms, item.duplicate);
@@ -162,8 +189,8 @@ void EngineNode::deliver(Step now) {
       advice_.push_back(advice);
     } else if (!advice.release) {
       const auto target = engine_.equipped_car(advice.target);
-      fates_.push_back(
-          {target ? target->car->vehicle : traffic::kNoVehicle, advice.rsu, advice.sequence, AdviceFate::kDuplicate});
+      fates_.push_back({target ? target->car->vehicle : traffic::kNoVehicle, advice.rsu, advice.sequence,
+                        AdviceFate::kDuplicate, advice.issued, advice.acceleration_mps2});
     }
   }
 }
@@ -175,6 +202,8 @@ void EngineNode::report_fates(TrafficBatch& traffic) const {
     traffic.fate_sequence.push_back(known.sequence);
     traffic.fate.push_back(static_cast<std::uint8_t>(known.fate));
     traffic.fate_again.push_back(0);
+    traffic.fate_issued.push_back(known.issued);
+    traffic.fate_commanded_mps2.push_back(known.commanded_mps2);
   }
 }
 

@@ -36,9 +36,19 @@ class EngineNode {
     std::uint32_t rsu = 0;
     std::uint32_t sequence = 0;
     AdviceFate fate{};
+    Step issued = -1;
+    double commanded_mps2 = 0.0;
+  };
+  /// That a car hears an RSU, whatever it says.
+  struct Hearing {
+    std::uint64_t target = 0;
+    std::uint32_t rsu = 0;
   };
 
   void hear(const RoadsideBatch& batch);
+  /// Lets units whose advice outlives a silence of its RSU hear that it speaks.
+  void hear_spat(const RoadsideBatch& batch, std::size_t frame);
+  [[nodiscard]] Hop hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& batch, std::size_t frame) const;
   void hear_coordination(const RoadsideBatch& batch, std::size_t frame);
   void send(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame);
   /// Takes the advice that has reached its car by `now`.
@@ -53,6 +63,7 @@ class EngineNode {
   traffic::UnitErrors unit_errors_;
   traffic::RoadsideSensors sensors_;
   Inbox<traffic::Advice> inbox_;         ///< stays empty under the ideal radio
+  Inbox<Hearing> spats_;                 ///< likewise
   ReceptionTally tally_;                 ///< of this step
   std::vector<traffic::Advice> advice_;  ///< heard in this step
   std::vector<Fate> fates_;              ///< that became known in this step

@@ -4,6 +4,8 @@ namespace lukou {
 namespace {
 
 using traffic::AdviceOutcome;
+using traffic::Decider;
+using traffic::Guidance;
 using traffic::Stage;
 
 // The model's words are those of the bus.
@@ -23,8 +25,39 @@ static_assert(static_cast<int>(AdviceOutcome::kUnknownVehicle) == static_cast<in
 static_assert(static_cast<int>(AdviceOutcome::kMalformed) == static_cast<int>(AdviceFate::kMalformed));
 static_assert(static_cast<int>(AdviceOutcome::kOutOfLimit) == static_cast<int>(AdviceFate::kOutOfLimit));
 static_assert(static_cast<int>(AdviceOutcome::kStale) == static_cast<int>(AdviceFate::kStale));
+static_assert(static_cast<int>(AdviceOutcome::kNotComplied) == static_cast<int>(AdviceFate::kNotComplied));
+static_assert(static_cast<int>(AdviceOutcome::kChangedDriver) == static_cast<int>(AdviceFate::kChangedDriver));
+static_assert(static_cast<int>(AdviceOutcome::kLate) == static_cast<int>(AdviceFate::kLate));
+static_assert(static_cast<int>(Guidance::kNeverAdvised) == static_cast<int>(GuidanceState::kNeverAdvised));
+static_assert(static_cast<int>(Guidance::kInForce) == static_cast<int>(GuidanceState::kInForce));
+static_assert(static_cast<int>(Guidance::kReleased) == static_cast<int>(GuidanceState::kReleased));
+static_assert(static_cast<int>(Guidance::kExpired) == static_cast<int>(GuidanceState::kExpired));
+static_assert(static_cast<int>(Guidance::kRsuUnheard) == static_cast<int>(GuidanceState::kRsuUnheard));
+static_assert(static_cast<int>(Guidance::kNotComplied) == static_cast<int>(GuidanceState::kNotComplied));
+static_assert(static_cast<int>(Guidance::kPastStopLine) == static_cast<int>(GuidanceState::kPastStopLine));
+static_assert(static_cast<int>(Guidance::kReacting) == static_cast<int>(GuidanceState::kReacting));
+static_assert(static_cast<int>(Decider::kOwnWish) == static_cast<int>(BoundBy::kOwnWish));
+static_assert(static_cast<int>(Decider::kCarAhead) == static_cast<int>(BoundBy::kCarAhead));
+static_assert(static_cast<int>(Decider::kLight) == static_cast<int>(BoundBy::kLight));
+static_assert(static_cast<int>(Decider::kAdvice) == static_cast<int>(BoundBy::kAdvice));
+static_assert(static_cast<int>(Decider::kLimit) == static_cast<int>(BoundBy::kLimit));
+static_assert(static_cast<int>(Decider::kGuard) == static_cast<int>(BoundBy::kGuard));
+static_assert(static_cast<int>(Decider::kBlock) == static_cast<int>(BoundBy::kBlock));
 
-void report_cars(const traffic::Engine& engine, TrafficBatch& batch) {
+/// A missed word is forgotten when it was issued longer ago than this: 5 s.
+constexpr Step kMissedWindow = 50;
+
+std::uint8_t guidance_of(const traffic::Car& car) {
+  return static_cast<std::uint8_t>(car.equipped ? static_cast<GuidanceState>(car.unit.state())
+                                                : GuidanceState::kNotEquipped);
+}
+
+std::uint8_t missed_of(const traffic::Car& car, Step step) {
+  const bool counts = car.missed.order > car.unit.newest() && step - car.missed.order.issued <= kMissedWindow;
+  return counts ? car.missed.fate : kNothingMissed;
+}
+
+void report_cars(const traffic::Engine& engine, Step step, TrafficBatch& batch) {
   for (int i = 0; i < kLanes; ++i) {
     for (const traffic::Car& car : engine.lane(static_cast<Lane>(i)).cars()) {
       batch.vehicle.push_back(car.vehicle);
@@ -36,6 +69,9 @@ void report_cars(const traffic::Engine& engine, TrafficBatch& batch) {
       batch.acceleration_mps2.push_back(car.motion.acceleration_mps2);
       batch.commanded_mps2.push_back(car.commanded_mps2);
       batch.noise_mps2.push_back(car.noise_mps2);
+      batch.guidance.push_back(guidance_of(car));
+      batch.bound_by.push_back(static_cast<std::uint8_t>(car.decider));
+      batch.missed.push_back(missed_of(car, step));
     }
   }
 }
@@ -65,6 +101,8 @@ void report_events(const traffic::Engine& engine, TrafficBatch& batch) {
     batch.fate_sequence.push_back(outcome.sequence);
     batch.fate.push_back(static_cast<std::uint8_t>(outcome.outcome));
     batch.fate_again.push_back(outcome.again ? 1 : 0);
+    batch.fate_issued.push_back(outcome.issued);
+    batch.fate_commanded_mps2.push_back(outcome.command_mps2);
   }
   batch.guard_interventions = events.guard_interventions;
 }
@@ -74,7 +112,7 @@ void report_events(const traffic::Engine& engine, TrafficBatch& batch) {
 void report(const traffic::Engine& engine, Step step, TrafficBatch& batch) {
   batch.clear();
   batch.step = step;
-  report_cars(engine, batch);
+  report_cars(engine, step, batch);
   report_events(engine, batch);
   for (const Approach approach : kAllApproaches) {
     batch.arrived.push_back(engine.arrived(approach));

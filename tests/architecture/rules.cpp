@@ -18,7 +18,7 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"lockstep", {"core"}},
     {"bus", {"core", "lockstep", "messages", "radio"}},
     {"measures", {"core", "intersection", "radio", "bus"}},  // of the bus the plain batches alone, see kOnlyHeader
-    {"results", {"core", "intersection"}},
+    {"results", {"core", "intersection", "measures"}},       // of the measures the plain rows alone, see kOnlyHeader
     {"process", {"core", "lockstep", "bus"}},
 };
 
@@ -30,6 +30,7 @@ struct OnlyHeader {
 };
 const std::vector<OnlyHeader> kOnlyHeader = {
     {"common/measures", "common/bus", "common/bus/batches.hpp"},
+    {"common/results", "common/measures", "common/measures/rows.hpp"},
     {"services/rsu/sdk", "common/messages", "common/messages/binding.hpp"},
 };
 

@@ -22,10 +22,11 @@ const std::vector<GoldenRun>& golden_runs() {
        .golden = R"(car.csv 4a0b113e6c2a159170e5eb1d4bd4c8912be30682d2b463080ace0ed16f8182c3
 directives.textproto e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855
 road.csv c0b806129d049d97227714a011c7b4bbd17eabfb6b1600a494074f30419929ae
-scenario.textproto 3d6c46ff24451690e9d86ee3dd8347b9eb69d87a6f6137d83505b4e9129ebfb1
+scenario.textproto e7a03c56c1e999a9e4600d30feabfe0d58d22359e42deb9315b1b1faa42d1fc3
 stop.csv 7294999083b2b67081e2f6970e2aeda8fe33878f4426dae7838e52b017cf05e4
 stop_time.csv 82e4e18ceb748921c529b8d3a865f3876a6c8f90ce74bbdc65183f04f5073f06
-summary.json 5d54488e4c4590ced9c8af91acfa67fa42cba548e4ed9c6c02d8afd6f2862be7
+stops.csv d031e7ad74d206653cb79537fc7d562fc03692aabf92bc5ab6801064468c9d23
+summary.json e89565e6e0a4be30f885a04b8e8e1fd81720000cfbb1273f1c97b3ababcdc17c
 )"},
       {.name = "protected left turns under changing demand",
        .arguments = paper_with(
@@ -37,10 +38,11 @@ summary.json 5d54488e4c4590ced9c8af91acfa67fa42cba548e4ed9c6c02d8afd6f2862be7
        .golden = R"(car.csv 3202f87d3967bfc0c841b8f3ef05078a8a36c82f9d688e119a4233eaa08730d3
 directives.textproto e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855
 road.csv 09276241b273bf621c8d9808c73ffafb8320ba43febc423aaa4408e72bb18745
-scenario.textproto aa03c9265c67d88626852c4ac933b9af24faaecbce18e6c90a7bc574cd176d62
+scenario.textproto 631eca7951d4bc091b406797ba19a9ed9097e24bf1f13bd925731986f4bea7fa
 stop.csv 78df05efbf88e514960c204a9b716095e7739bdb21609578ced4f28ef26744d7
 stop_time.csv 24995a45268ca401a2251baa3b4e1ab902d6cd7f08a4a2e8bca74e0e4ff356f5
-summary.json c837b17589fd426193cb73d6edca63284117aa42bef69280de8e260a8d19fb82
+stops.csv 62935f667afce70f98da390bfc04d129a99af6bb111f9d01bf2fc384320563a3
+summary.json 786b9c928ceb98559201c9835295d880bf50655b542e7a64f8a6e5cb2d48a7f2
 )"}};
   return kRuns;
 }

@@ -39,6 +39,18 @@ constexpr Row kRows[] = {{"vehicles_entered", "vehicles entered"},
                          {"stops_per_vehicle", "stops per vehicle"},
                          {"mean_queue_veh", "mean queue per lane [veh]"}};
 
+/// "stops: 912, of these 700 unequipped, 212 queue_ahead"
+std::string stops_text(const Json& summary) {
+  std::string text = "stops: " + cell(summary["stops_total"]);
+  const char* between = ", of these ";
+  for (const auto& [cause, count] : summary["stops_by_cause"].items()) {
+    if (count == 0) continue;
+    text += between + cell(count) + " " + cause;
+    between = ", ";
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string summary_text(const launch::RunReport& report) {
@@ -65,6 +77,7 @@ std::string summary_text(const launch::RunReport& report) {
               cell(summary["advice_dropped"]["total"]) + " stale or heard twice";
     }
     text += "\n";
+    if (summary.contains("stops_by_cause")) text += stops_text(summary);
     text += "safety: " + cell(summary["collisions"]) + " collisions, " + cell(summary["reversals"]) + " reversals, " +
             cell(summary["red_crossings"]) + " crossings on red (cars that could not stop), least head distance " +
             cell(summary["min_head_distance_m"]) + " m\n";

@@ -29,7 +29,12 @@ void Engine::step(Step step, const Heads& heads, std::span<const Advice> advice)
   entries_.clear();
   if (step == 0) return;
   for (const Advice& heard : advice) hear(heard, step);
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) lanes_[lane].advance(step, heads[lane], events_);
+  const UnitRules rules{.fallback = step_at_or_after(parameters_.unit.fallback_s),
+                        .rsu_lost_after = step_at_or_after(parameters_.unit.rsu_lost_after_s),
+                        .reaction = step_at_or_after(parameters_.compliance.reaction_s),
+                        .threshold_mps2 = parameters_.compliance.threshold_mps2,
+                        .everybody = heard_by_all_};
+  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) lanes_[lane].advance(step, heads[lane], rules, events_);
   forget_departed();
   overflows_ = false;
   for (const Approach approach : kAllApproaches) admit(approach, time_s(step));
@@ -38,12 +43,12 @@ void Engine::step(Step step, const Heads& heads, std::span<const Advice> advice)
 void Engine::hear(const Advice& advice, Step step) {
   LUKOU_EXPECT(advice.issued < step);
   const auto refuse = [&](std::uint32_t vehicle, AdviceOutcome reason) {
-    if (!advice.release) events_.outcomes.push_back({vehicle, advice.rsu, advice.sequence, reason, false});
+    if (advice.release) return;
+    events_.outcomes.push_back(
+        {vehicle, advice.rsu, advice.sequence, reason, false, advice.issued, advice.acceleration_mps2});
   };
-  const Station* found = station(advice.target);
-  if (found == nullptr) return refuse(kNoVehicle, AdviceOutcome::kUnknownVehicle);
-  Car* car = lanes_[index(found->lane)].find(found->vehicle);
-  LUKOU_EXPECT(car != nullptr);
+  Car* car = car_of(advice.target);
+  if (car == nullptr) return refuse(kNoVehicle, AdviceOutcome::kUnknownVehicle);
   if (!advice.release) {
     if (!std::isfinite(advice.acceleration_mps2)) return refuse(car->vehicle, AdviceOutcome::kMalformed);
     if (std::abs(advice.acceleration_mps2) > parameters_.vehicles.acceleration_max_mps2) {
@@ -51,7 +56,32 @@ void Engine::hear(const Advice& advice, Step step) {
     }
   }
   if (car->stage == Stage::kExit) return refuse(car->vehicle, AdviceOutcome::kPastStopLine);
+  const std::size_t before = events_.outcomes.size();
   car->unit.take(advice, step, car->vehicle, events_.outcomes);
+  const bool late = events_.outcomes.size() > before && events_.outcomes.back().outcome == AdviceOutcome::kLate;
+  if (late) miss(advice, static_cast<std::uint8_t>(AdviceOutcome::kLate));
+}
+
+void Engine::hear_rsu(std::uint32_t rsu, Step heard) {
+  if (rsu >= heard_by_all_.size()) heard_by_all_.resize(rsu + 1, -1);
+  heard_by_all_[rsu] = heard;
+}
+
+void Engine::hear_rsu(std::uint64_t temporary_id, std::uint32_t rsu, Step heard) {
+  if (Car* car = car_of(temporary_id)) car->unit.hear(rsu, heard);
+}
+
+void Engine::miss(const Advice& advice, std::uint8_t fate) {
+  Car* car = advice.release ? nullptr : car_of(advice.target);
+  if (car != nullptr && order_of(advice) > car->missed.order) car->missed = {order_of(advice), fate};
+}
+
+Car* Engine::car_of(std::uint64_t temporary_id) {
+  const Station* found = station(temporary_id);
+  if (found == nullptr) return nullptr;
+  Car* car = lanes_[index(found->lane)].find(found->vehicle);
+  LUKOU_EXPECT(car != nullptr);
+  return car;
 }
 
 void Engine::admit(Approach approach, double now_s) {
@@ -89,12 +119,14 @@ bool Engine::admit_first(Approach approach) {
   Car car;
   car.motion.speed_mps =
       capped_initial_speed_mps(parameters_, law_, driver.initial_speed_mps, last[static_cast<std::size_t>(*chosen)]);
+  if (car.motion.speed_mps < driver.initial_speed_mps) car.decider = Decider::kCarAhead;
   car.desired_speed_mps = driver.desired_speed_mps;
   car.commanded_mps2 = std::numeric_limits<double>::quiet_NaN();
   car.temporary_id = driver.temporary_id;
   car.entered = next_step_ - 1;
   car.vehicle = vehicle;
   car.equipped = entrance.waiting.front().equipped;
+  if (car.equipped) car.unit = OnBoardUnit(drawn_compliance(parameters_, vehicle));
   lanes_[index(lane)].enter(car);
   entries_.push_back({vehicle, lane, car.equipped, car.motion.speed_mps, car.desired_speed_mps});
   if (car.equipped) {
@@ -130,5 +162,10 @@ void Engine::change_flow(Approach approach, double flow_veh_per_h) {
 }
 
 void Engine::change_equipped_ratio(double ratio) { parameters_.equipped_ratio = ratio; }
+
+void Engine::change_units(const UnitParameters& unit, const ComplianceParameters& compliance) {
+  parameters_.unit = unit;
+  parameters_.compliance = compliance;
+}
 
 }  // namespace lukou::traffic

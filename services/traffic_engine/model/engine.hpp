@@ -38,9 +38,18 @@ class Engine {
   /// is not read in step 0.
   void step(Step step, const Heads& heads, std::span<const Advice> advice);
 
+  /// A frame of an RSU, other than advice, reached the units at the instant of `heard`, before the next step: every
+  /// unit on the road, or one.
+  void hear_rsu(std::uint32_t rsu, Step heard);
+  void hear_rsu(std::uint64_t temporary_id, std::uint32_t rsu, Step heard);
+  /// An advice will not reach its car; `fate` as on the bus.
+  void miss(const Advice& advice, std::uint8_t fate);
+
   /// From the next step on. Other draws stay as they are.
   void change_flow(Approach approach, double flow_veh_per_h);
   void change_equipped_ratio(double ratio);
+  /// The shares hold for cars that come onto the road from then on, the rest for all.
+  void change_units(const UnitParameters& unit, const ComplianceParameters& compliance);
 
   [[nodiscard]] const LaneTraffic& lane(Lane lane) const { return lanes_[index(lane)]; }
   /// What happened on the lanes in the last step.
@@ -87,6 +96,7 @@ class Engine {
   };
 
   void hear(const Advice& advice, Step step);
+  [[nodiscard]] Car* car_of(std::uint64_t temporary_id);
   void admit(Approach approach, double now_s);
   /// Puts the first waiting car onto a safe lane; false if there is none.
   bool admit_first(Approach approach);
@@ -97,7 +107,8 @@ class Engine {
   FollowLaw law_;
   std::vector<LaneTraffic> lanes_;
   std::vector<Entrance> entrances_;
-  std::vector<Station> stations_;  ///< equipped cars on the road, by temporary id
+  std::vector<Station> stations_;   ///< equipped cars on the road, by temporary id
+  std::vector<Step> heard_by_all_;  ///< by RSU, see UnitRules::everybody
   LaneEvents events_;
   std::vector<Entry> entries_;
   Step next_step_ = 0;

@@ -29,6 +29,19 @@ bool drawn_equipped(std::uint64_t seed, std::uint32_t vehicle, double equipped_r
   return uniform01({.run_seed = seed, .purpose = Purpose::kEquipped, .entity = vehicle, .index = 0}) < equipped_ratio;
 }
 
+AdvisedDriver drawn_compliance(const EngineParameters& parameters, std::uint32_t vehicle) {
+  using Kind = AdvisedDriver::Kind;
+  const ComplianceParameters& compliance = parameters.compliance;
+  if (compliance.human_share <= 0.0 && compliance.ignoring_share <= 0.0) return {};
+  DrawKey key{.run_seed = parameters.seed, .purpose = Purpose::kCompliance, .entity = vehicle, .index = 0};
+  const double uniform = uniform01(key);
+  // Ignoring drivers from below, humans from above.
+  if (uniform < compliance.ignoring_share) return {.kind = Kind::kIgnoring};
+  if (uniform < 1.0 - compliance.human_share) return {};
+  key.purpose = Purpose::kDriverGain;
+  return {.kind = Kind::kHuman, .gain = std::max(0.0, 1.0 + compliance.gain_deviation * standard_normal(key))};
+}
+
 bool lane_is_safe(const FollowLaw& law, const std::optional<Motion>& last) {
   return !last || last->position_m >= law.safe_distance_m(last->speed_mps);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "services/traffic_engine/model/follow_law.hpp"
+#include "services/traffic_engine/model/on_board_unit.hpp"
 #include "services/traffic_engine/model/parameters.hpp"
 
 namespace lukou::traffic {
@@ -19,6 +20,9 @@ struct Driver {
 Driver drawn_driver(const EngineParameters& parameters, std::uint32_t vehicle);
 /// True if the vehicle has an on-board unit under this ratio, [0, 1].
 bool drawn_equipped(std::uint64_t seed, std::uint32_t vehicle, double equipped_ratio);
+
+/// How the driver of a car with a unit takes advice. Raising one share leaves the drivers of the other alone.
+AdvisedDriver drawn_compliance(const EngineParameters& parameters, std::uint32_t vehicle);
 
 /// True if a car may come onto a lane whose last car is `last` (none: an empty lane): equation (5).
 bool lane_is_safe(const FollowLaw& law, const std::optional<Motion>& last);

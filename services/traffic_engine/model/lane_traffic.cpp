@@ -71,7 +71,7 @@ void LaneTraffic::enter(const Car& car) {
   natural_mps2_.resize(natural_mps2_.size() + delay_steps_, 0.0);
 }
 
-void LaneTraffic::advance(Step step, Aspect aspect, LaneEvents& events) {
+void LaneTraffic::advance(Step step, Aspect aspect, const UnitRules& rules, LaneEvents& events) {
   const bool green = aspect == Aspect::kGreen;
   note_light(green);
   if (!green) let_the_first_join_the_block();
@@ -86,8 +86,13 @@ void LaneTraffic::advance(Step step, Aspect aspect, LaneEvents& events) {
   bool target_given = green;
   for (std::size_t place = 0; place < cars_.size(); ++place) {
     Car& car = cars_[place];
-    car.unit.expire(step);
-    View view{.step = step, .ahead = nullptr, .moved_ahead = nullptr, .stop_target_m = {}, .held_by_line = false};
+    car.unit.advance(step, rules, car.vehicle, events.outcomes);
+    View view{.step = step,
+              .ahead = nullptr,
+              .moved_ahead = nullptr,
+              .stop_target_m = {},
+              .held_by_line = false,
+              .fallback = rules.fallback};
     if (place > 0) view.ahead = &before_[place - 1], view.moved_ahead = &cars_[place - 1].motion;
     if (car.stage == Stage::kBlock && (!block_open || leaves_block(car, block_mps))) {
       car.stage = Stage::kIn;
@@ -153,7 +158,7 @@ double LaneTraffic::block_target_mps(bool green) const {
 bool LaneTraffic::leaves_block(const Car& car, double block_mps) const {
   if (!car.unit.in_force()) return false;
   const double next_mps =
-      std::clamp(car.motion.speed_mps + car.unit.command_mps2() * kStep_s, 0.0, parameters_.vehicles.speed_limit_mps);
+      std::clamp(car.motion.speed_mps + car.unit.acted_mps2() * kStep_s, 0.0, parameters_.vehicles.speed_limit_mps);
   const double difference_mps = next_mps - block_mps;
   if (difference_mps < -kRounding_mps2 * kStep_s) return true;
   return car.unit.binding() == AdviceBinding::kGuard && difference_mps > kRounding_mps2 * kStep_s;
@@ -166,16 +171,19 @@ double LaneTraffic::move_in_block(Car& car, const View& view, double block_mps, 
   Motion& motion = car.motion;
   car.noise_mps2 = 0.0;
   car.commanded_mps2 = kNone;
+  car.decider = front ? Decider::kLight : Decider::kBlock;
   if (car.unit.in_force()) {
     car.commanded_mps2 = car.unit.command_mps2();
-    const double excess_mps2 = car.commanded_mps2 - (block_mps - motion.speed_mps) / kStep_s;
+    const double excess_mps2 = car.unit.acted_mps2() - (block_mps - motion.speed_mps) / kStep_s;
     AdviceOutcome outcome = guarded ? AdviceOutcome::kChangedGuard : AdviceOutcome::kApplied;
     if (std::abs(excess_mps2) > kRounding_mps2) outcome = AdviceOutcome::kChangedLimit;
     if (excess_mps2 > kRounding_mps2 && car.unit.binding() == AdviceBinding::kFollowing) {
       outcome = AdviceOutcome::kChangedFollowing;
     }
+    if (outcome == AdviceOutcome::kApplied) car.decider = Decider::kAdvice;
     car.unit.used(outcome, car.vehicle, events.outcomes);
   }
+  if (guarded) car.decider = Decider::kGuard;
   motion.position_m = advanced_m(motion.position_m, motion.speed_mps, next_mps);
   motion.acceleration_mps2 = (next_mps - motion.speed_mps) / kStep_s;
   motion.speed_mps = next_mps;
@@ -202,14 +210,17 @@ void LaneTraffic::move_freely(Car& car, std::size_t place, const View& view, Lan
   const bool guarded = next_mps < limited_mps;
   if (guarded) ++events.guard_interventions;
 
+  car.decider = want.decider;
   if (car.unit.in_force()) {
     AdviceOutcome outcome = want.outcome;
     // Exact: the same product and sum unless a limit has cut it.
     const bool limited = motion.speed_mps + unlimited_mps2 * kStep_s != limited_mps;
     if (outcome == AdviceOutcome::kApplied && limited) outcome = AdviceOutcome::kChangedLimit;
+    if (outcome == AdviceOutcome::kChangedLimit) car.decider = Decider::kLimit;
     if (outcome == AdviceOutcome::kApplied && guarded) outcome = AdviceOutcome::kChangedGuard;
     car.unit.used(outcome, car.vehicle, events.outcomes);
   }
+  if (guarded) car.decider = Decider::kGuard;
   motion.position_m = advanced_m(motion.position_m, motion.speed_mps, next_mps);
   motion.acceleration_mps2 = (next_mps - motion.speed_mps) / kStep_s;
   motion.speed_mps = next_mps;
@@ -220,20 +231,39 @@ LaneTraffic::Wanted LaneTraffic::wanted(Car& car, std::size_t place, const View&
                                     ? law_.following_mps2(car.motion, car.desired_speed_mps, *view.ahead)
                                     : law_.free_mps2(car.motion.speed_mps, car.desired_speed_mps);
   double natural_mps2 = following_mps2;
+  Decider decider = view.ahead != nullptr && following_mps2 <= 0.0 ? Decider::kCarAhead : Decider::kOwnWish;
   if (view.stop_target_m) {
-    natural_mps2 = std::min(natural_mps2, law_.braking_to_mps2(car.motion, car.desired_speed_mps, *view.stop_target_m));
+    const double braking_mps2 = law_.braking_to_mps2(car.motion, car.desired_speed_mps, *view.stop_target_m);
+    if (braking_mps2 < natural_mps2) {
+      natural_mps2 = braking_mps2;
+      decider = Decider::kLight;
+    }
   }
   natural_mps2 = delayed(place, natural_mps2);
   car.commanded_mps2 = kNone;
-  if (!car.unit.in_force()) return {natural_mps2, AdviceOutcome::kApplied};
+  if (!car.unit.in_force()) {
+    const double share = car.unit.fallback_share(view.step, view.fallback);
+    if (share > 0.0) natural_mps2 = faded(car, natural_mps2, share);
+    return {natural_mps2, AdviceOutcome::kApplied, decider};
+  }
   car.commanded_mps2 = car.unit.command_mps2();
   return commanded(car, view, following_mps2);
 }
 
+double LaneTraffic::faded(const Car& car, double natural_mps2, double share) const {
+  const double mixed_mps2 = share * car.unit.last_acted_mps2() + (1.0 - share) * natural_mps2;
+  // Who is hindered brakes at once, with what the laws of braking ask for: comfort alone may wait.
+  const bool hindered = natural_mps2 < law_.free_mps2(car.motion.speed_mps, car.desired_speed_mps);
+  return hindered ? std::min(natural_mps2, mixed_mps2) : mixed_mps2;
+}
+
 LaneTraffic::Wanted LaneTraffic::commanded(const Car& car, const View& view, double following_mps2) const {
-  Wanted want{car.commanded_mps2, AdviceOutcome::kApplied};
+  Wanted want{car.unit.acted_mps2(), AdviceOutcome::kApplied, Decider::kAdvice};
   if (car.unit.binding() == AdviceBinding::kGuard) return want;
-  if (following_mps2 < want.acceleration_mps2) want = {following_mps2, AdviceOutcome::kChangedFollowing};
+  if (following_mps2 < want.acceleration_mps2) {
+    want = {following_mps2, AdviceOutcome::kChangedFollowing,
+            view.ahead != nullptr ? Decider::kCarAhead : Decider::kOwnWish};
+  }
   if (!view.stop_target_m) return want;
 
   const double speed_mps = car.motion.speed_mps;
@@ -243,7 +273,7 @@ LaneTraffic::Wanted LaneTraffic::commanded(const Car& car, const View& view, dou
   const double braking_mps2 = law_.braking_to_mps2(car.motion, car.desired_speed_mps, *view.stop_target_m);
   if (braking_mps2 >= want.acceleration_mps2) return want;
   const bool first_change = want.outcome == AdviceOutcome::kApplied;
-  return {braking_mps2, first_change ? AdviceOutcome::kChangedRed : want.outcome};
+  return {braking_mps2, first_change ? AdviceOutcome::kChangedRed : want.outcome, Decider::kLight};
 }
 
 double LaneTraffic::delayed(std::size_t place, double natural_mps2) {
@@ -287,7 +317,7 @@ void LaneTraffic::note_crossings(Step step, Aspect aspect, LaneEvents& events) {
     if (car.stage != Stage::kExit) {
       events.crossings.push_back({car.vehicle, passed_at_s(place, line_m), aspect, car.stage == Stage::kCommitted});
       car.stage = Stage::kExit;
-      car.unit.forget();
+      car.unit.forget(car.vehicle, events.outcomes);
     }
     if (car.motion.position_m > end_m) {
       events.departures.push_back({car.vehicle, passed_at_s(place, end_m)});

@@ -21,6 +21,23 @@ enum class Stage : std::uint8_t {
   kExit = 3,       ///< has crossed the stop line
 };
 
+/// What decided a car's acceleration in a step. The values are those of BoundBy on the bus.
+enum class Decider : std::uint8_t {
+  kOwnWish = 0,
+  kCarAhead = 1,
+  kLight = 2,
+  kAdvice = 3,
+  kLimit = 4,
+  kGuard = 5,
+  kBlock = 6,
+};
+
+/// The newest advice that did not reach its car in time. The record knows of it, the car does not.
+struct MissedWord {
+  WordOrder order;
+  std::uint8_t fate = 0;  ///< as on the bus; of any use only if the order is newer than what the unit took
+};
+
 struct Car {
   Motion motion;
   double desired_speed_mps = 0.0;
@@ -30,7 +47,9 @@ struct Car {
   Step entered = 0;
   std::uint32_t vehicle = 0;
   Stage stage = Stage::kIn;
+  Decider decider = Decider::kOwnWish;  ///< of the step that ended
   bool equipped = false;
+  MissedWord missed;
   OnBoardUnit unit;
 };
 
@@ -62,7 +81,7 @@ class LaneTraffic {
   explicit LaneTraffic(const EngineParameters& parameters);
 
   /// Moves every car from t_(step-1) to t_step under what the head shows at t_(step-1).
-  void advance(Step step, Aspect aspect, LaneEvents& events);
+  void advance(Step step, Aspect aspect, const UnitRules& rules, LaneEvents& events);
   /// Puts a car at the entrance. Requires that the lane is safe and the speed capped (entrance.hpp).
   void enter(const Car& car);
 
@@ -77,6 +96,7 @@ class LaneTraffic {
   struct Wanted {
     double acceleration_mps2 = 0.0;
     AdviceOutcome outcome = AdviceOutcome::kApplied;
+    Decider decider = Decider::kOwnWish;
   };
   /// What a car sees in the step that is being computed.
   struct View {
@@ -85,6 +105,7 @@ class LaneTraffic {
     const Motion* moved_ahead = nullptr;  ///< the same car at t_step
     std::optional<double> stop_target_m;  ///< the light lets this car brake to here
     bool held_by_line = false;            ///< the first car that may not cross
+    Step fallback = 0;                    ///< steps, see UnitRules
   };
 
   void note_light(bool green);
@@ -96,6 +117,8 @@ class LaneTraffic {
   void move_freely(Car& car, std::size_t place, const View& view, LaneEvents& events);
   [[nodiscard]] Wanted wanted(Car& car, std::size_t place, const View& view);
   [[nodiscard]] Wanted commanded(const Car& car, const View& view, double following_mps2) const;
+  /// What a driver wants while an advice that came to its end fades.
+  [[nodiscard]] double faded(const Car& car, double natural_mps2, double share) const;
   /// The natural acceleration that the driver's reaction time lets act now.
   double delayed(std::size_t place, double natural_mps2);
   [[nodiscard]] double guarded_mps(const Car& car, const View& view, double next_mps) const;

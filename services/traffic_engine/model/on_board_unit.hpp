@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "common/core/step.hpp"
@@ -27,6 +29,21 @@ enum class AdviceOutcome : std::uint8_t {
   kMalformed = 9,
   kOutOfLimit = 10,
   kStale = 14,
+  kNotComplied = 20,
+  kChangedDriver = 21,
+  kLate = 22,
+};
+
+/// Where a car stands with guidance. The values are those of GuidanceState on the bus, without its first.
+enum class Guidance : std::uint8_t {
+  kNeverAdvised = 1,
+  kInForce = 2,
+  kReleased = 3,
+  kExpired = 4,
+  kRsuUnheard = 5,
+  kNotComplied = 6,
+  kPastStopLine = 7,
+  kReacting = 8,
 };
 
 /// An advice as the radio delivered it. It may be used in the steps issued + 1 ... issued + lifetime.
@@ -50,39 +67,114 @@ struct OutcomeEvent {
   std::uint32_t sequence = 0;
   AdviceOutcome outcome = AdviceOutcome::kApplied;
   bool again = false;
+  Step issued = 0;
+  double command_mps2 = 0.0;
 };
 
-/// The part of a car that hears advice: holds the newest, and says once what became of each.
+/// Where a word stands among the others: what was issued last is the newest; at equal times the higher RSU, then the
+/// higher frame.
+struct WordOrder {
+  Step issued = -1;
+  std::uint32_t rsu = 0;
+  std::uint32_t sequence = 0;
+
+  friend auto operator<=>(const WordOrder&, const WordOrder&) = default;
+};
+inline WordOrder order_of(const Advice& advice) { return {advice.issued, advice.rsu, advice.sequence}; }
+
+/// How the driver of a car takes advice.
+struct AdvisedDriver {
+  enum class Kind : std::uint8_t {
+    kAutomated,  ///< exactly
+    kHuman,      ///< late and imperfectly
+    kIgnoring,   ///< not at all
+  };
+  Kind kind = Kind::kAutomated;
+  double gain = 1.0;  ///< of a human, >= 0: does this times the command
+};
+
+/// What holds for the units of all cars in a step.
+struct UnitRules {
+  Step fallback = 10;               ///< steps; 0 = at once
+  Step rsu_lost_after = 20;         ///< steps, at least 1
+  Step reaction = 10;               ///< steps, of humans
+  double threshold_mps2 = 0.1;      ///< of humans
+  std::span<const Step> everybody;  ///< by RSU: the newest step at whose instant every unit heard it; -1 = never
+};
+
+/// The part of a car that hears advice, and the driver's way to take it: holds the newest word, and says once what
+/// became of each.
 class OnBoardUnit {
  public:
-  /// Takes an advice that is a number and within the limits. Newest is what was issued last; at equal times the higher
-  /// RSU, then the higher frame, then the later call.
+  OnBoardUnit() = default;
+  explicit OnBoardUnit(const AdvisedDriver& driver) : driver_(driver) {}
+
+  /// Takes an advice that is a number and within the limits; used from `step` on, so heard at the instant before.
   void take(const Advice& advice, Step step, std::uint32_t vehicle, std::vector<OutcomeEvent>& outcomes);
-  /// Forgets an advice whose life has ended before `step`.
-  void expire(Step step) {
-    if (holds_ && step > last_step_) holds_ = false;
+  /// Another frame of this RSU reached the unit at the instant of `heard`.
+  void hear(std::uint32_t rsu, Step heard);
+  /// Before the car moves in `step`: ends what has come to its end, and lets a human act on what has been shown long
+  /// enough.
+  void advance(Step step, const UnitRules& rules, std::uint32_t vehicle, std::vector<OutcomeEvent>& outcomes) {
+    if (shown_) look(step, rules, vehicle, outcomes);
   }
-  /// Forgets what is in force, since the car has crossed its stop line.
-  void forget() { holds_ = false; }
+  /// The car has crossed its stop line.
+  void forget(std::uint32_t vehicle, std::vector<OutcomeEvent>& outcomes);
   /// Says what a step made of the advice in force. Requires in_force().
   void used(AdviceOutcome outcome, std::uint32_t vehicle, std::vector<OutcomeEvent>& outcomes);
 
-  [[nodiscard]] bool in_force() const { return holds_; }
-  /// Requires in_force().
-  [[nodiscard]] double command_mps2() const { return command_mps2_; }
-  [[nodiscard]] AdviceBinding binding() const { return binding_; }
+  /// Whether the driver acts on an advice.
+  [[nodiscard]] bool in_force() const { return state_ == Guidance::kInForce; }
+  /// As it was commanded. Requires in_force().
+  [[nodiscard]] double command_mps2() const { return acting_.command_mps2; }
+  /// As the driver takes it: the command itself, but for humans. Requires in_force().
+  [[nodiscard]] double acted_mps2() const { return acting_.acted_mps2; }
+  [[nodiscard]] AdviceBinding binding() const { return acting_.binding; }
+  [[nodiscard]] Guidance state() const { return state_; }
+  /// The newest word that it took, a release included.
+  [[nodiscard]] const WordOrder& newest() const { return newest_; }
+  [[nodiscard]] const AdvisedDriver& driver() const { return driver_; }
+
+  /// After an advice came to its end: the share of last_acted_mps2() in what the driver wants in `step`, falling
+  /// linearly to 0 in `fallback` steps; 0 otherwise.
+  [[nodiscard]] double fallback_share(Step step, Step fallback) const {
+    const Step passed = step - ended_ + 1;
+    return passed < fallback ? 1.0 - static_cast<double>(passed) / static_cast<double>(fallback) : 0.0;
+  }
+  [[nodiscard]] double last_acted_mps2() const { return acting_.acted_mps2; }
+  /// Whether hearing its RSU matters to a unit that has not heard it at the instant before `step`: what it shows would
+  /// outlive the silence.
+  [[nodiscard]] bool listens(std::uint32_t rsu, Step step, Step rsu_lost_after) const {
+    return shown_ && newest_.rsu == rsu && heard_ < step - 1 && shown_until_ > heard_ + rsu_lost_after;
+  }
 
  private:
   enum class Use : std::uint8_t { kUnused, kApplied, kChanged };
+  struct Word {
+    WordOrder order;
+    double command_mps2 = 0.0;
+    double acted_mps2 = 0.0;
+    Step heard = 0;
+    AdviceBinding binding = AdviceBinding::kGuard;
+    Use use = Use::kUnused;
+    bool bent = false;  ///< by the driver: late, or not as commanded
+  };
+  static constexpr Step kLongAgo = -1'000'000;
 
-  double command_mps2_ = 0.0;
-  Step issued_ = -1;     ///< of the newest word, a release included
-  Step last_step_ = -1;  ///< the last step in which the advice may be used
-  std::uint32_t rsu_ = 0;
-  std::uint32_t sequence_ = 0;
-  AdviceBinding binding_ = AdviceBinding::kGuard;
-  Use use_ = Use::kUnused;
-  bool holds_ = false;
+  void look(Step step, const UnitRules& rules, std::uint32_t vehicle, std::vector<OutcomeEvent>& outcomes);
+  void react(Step step, const UnitRules& rules, std::uint32_t vehicle, std::vector<OutcomeEvent>& outcomes);
+  /// Drops what the driver has not acted on yet.
+  void drop_waiting(AdviceOutcome reason, std::uint32_t vehicle, std::vector<OutcomeEvent>& outcomes);
+
+  AdvisedDriver driver_;
+  Word acting_;                ///< what the driver acts on, or acted on last
+  std::vector<Word> waiting_;  ///< of a human: shown, but not reacted to; oldest first
+  WordOrder newest_;           ///< a release included
+  Step shown_until_ = -1;      ///< the last step of the newest word's life
+  Step heard_ = -1;            ///< when the RSU of the newest word was heard last
+  Step ended_ = kLongAgo;      ///< the first step after an advice that came to its end
+  Guidance state_ = Guidance::kNeverAdvised;
+  bool shown_ = false;  ///< the newest word is an advice that lives
 };
 
 }  // namespace lukou::traffic

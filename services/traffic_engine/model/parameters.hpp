@@ -43,6 +43,21 @@ struct DrivingParameters {
   double reaction_time_s = 0.1;  ///< T, [0.1, 1.0]
 };
 
+/// The units that hear advice.
+struct UnitParameters {
+  double fallback_s = 1.0;        ///< from the last command to natural driving when an advice ends; 0 = at once
+  double rsu_lost_after_s = 2.0;  ///< having heard nothing of the RSU for this long ends its advice
+};
+
+/// Who follows advice, of the cars with a unit; the others are automated and follow exactly.
+struct ComplianceParameters {
+  double human_share = 0.0;
+  double ignoring_share = 0.0;  ///< together at most 1
+  double reaction_s = 1.0;      ///< of a human, from the display to the pedal
+  double gain_deviation = 0.1;  ///< spread between humans of what they make of a command, as a share of it
+  double threshold_mps2 = 0.1;  ///< a human leaves smaller commands alone
+};
+
 /// A flow that holds from a time on.
 struct Flow {
   double from_s = 0.0;
@@ -65,6 +80,8 @@ struct EngineParameters {
   RoadLengths road;
   std::array<DemandParameters, kApproaches> demand;
   double equipped_ratio = 0.7;
+  UnitParameters unit;
+  ComplianceParameters compliance;
   double overflow_wait_s = 60.0;
 };
 

@@ -41,15 +41,17 @@ auto members(SignalBatch& b) {
 }
 
 auto members(TrafficBatch& b) {
-  auto& [step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, arrived, waiting,
-         arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped, entered_speed, entered_desired,
-         crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time, fate_vehicle, fate_rsu,
-         fate_sequence, fate, fate_again, answers, guard, overflow, heard, reception] = b;
+  auto& [step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance, bound_by,
+         missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped,
+         entered_speed, entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
+         fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded, answers, guard, overflow,
+         heard, reception] = b;
   return std::tuple_cat(
-      std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, arrived, waiting,
-               arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped, entered_speed,
-               entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time, fate_vehicle,
-               fate_rsu, fate_sequence, fate, fate_again, answers, guard, overflow, heard),
+      std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance,
+               bound_by, missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane,
+               entered_equipped, entered_speed, entered_desired, crossed, crossed_time, crossed_aspect,
+               crossed_committed, left, left_time, fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued,
+               fate_commanded, answers, guard, overflow, heard),
       members(reception));
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "common/measures/free_motion.hpp"
 
 namespace lukou {
@@ -30,6 +32,17 @@ class Script {
     batch_.position_m.push_back(position_m);
     batch_.speed_mps.push_back(speed_mps);
     batch_.acceleration_mps2.push_back(acceleration_mps2);
+    batch_.guidance.push_back(static_cast<std::uint8_t>(GuidanceState::kNotEquipped));
+    batch_.bound_by.push_back(static_cast<std::uint8_t>(BoundBy::kLight));
+    batch_.missed.push_back(kNothingMissed);
+  }
+  /// A car with a unit.
+  void drive_guided(std::uint32_t vehicle, double position_m, double speed_mps, GuidanceState guidance,
+                    BoundBy bound_by = BoundBy::kLight, std::uint8_t missed = kNothingMissed) {
+    drive(vehicle, position_m, speed_mps);
+    batch_.guidance.back() = static_cast<std::uint8_t>(guidance);
+    batch_.bound_by.back() = static_cast<std::uint8_t>(bound_by);
+    batch_.missed.back() = missed;
   }
   void cross(std::uint32_t vehicle, double at_s, Aspect aspect = Aspect::kGreen) {
     batch_.crossed_vehicle.push_back(vehicle);
@@ -57,10 +70,12 @@ class Script {
     batch_.step = step_++;
     measures_.add(batch_);
     for (const FinishedCar& car : measures_.finished()) finished_.push_back(car);
+    for (const FinishedStop& stop : measures_.finished_stops()) stops_.push_back(stop);
     batch_.clear();
   }
   [[nodiscard]] const RunMeasures& measures() const { return measures_; }
   [[nodiscard]] const std::vector<FinishedCar>& finished() const { return finished_; }
+  [[nodiscard]] const std::vector<FinishedStop>& stops() const { return stops_; }
   [[nodiscard]] Step step() const { return step_; }
 
  private:
@@ -72,6 +87,7 @@ class Script {
   RunMeasures measures_;
   TrafficBatch batch_;
   std::vector<FinishedCar> finished_;
+  std::vector<FinishedStop> stops_;
   Step step_ = 0;
 };
 
@@ -293,6 +309,91 @@ TEST(RunMeasures, CopiesTheNewestCountsOfArrivals) {
   EXPECT_EQ(figures.unequipped.vehicles_arrived, 3U);
   EXPECT_EQ(figures.all.vehicles_waiting, 2U);
   EXPECT_EQ(figures.unequipped.vehicles_waiting, 2U);
+}
+
+TEST(RunMeasures, TellsAStopWhenItIsOver) {
+  Script script;
+  script.enter(0, true);
+  script.drive_guided(0, 0.0, 15.0, GuidanceState::kNeverAdvised);
+  script.next();
+  // Below 5 km/h in the steps 1 ... 4, between 5 and 8 in step 5, below 5 in step 6, fast in step 7: one stop of 0.5 s.
+  // What holds when it begins counts, not what comes later.
+  script.drive_guided(0, 470.25, 4.0 * kKmh, GuidanceState::kExpired, BoundBy::kLight,
+                      static_cast<std::uint8_t>(AdviceFate::kLostBurst));
+  script.next();
+  for (const double speed_kmh : {0.0, 0.0, 4.0, 7.0, 4.0}) {
+    script.drive_guided(0, 471.0, speed_kmh * kKmh, GuidanceState::kInForce, BoundBy::kAdvice);
+    script.next();
+  }
+  EXPECT_TRUE(script.stops().empty());
+  ASSERT_EQ(script.measures().lasting_stops().size(), 1U);
+  EXPECT_EQ(script.measures().lasting_stops()[0].ended, 6);
+  script.drive_guided(0, 480.0, 9.0 * kKmh, GuidanceState::kInForce, BoundBy::kAdvice);
+  script.next();
+  ASSERT_EQ(script.stops().size(), 1U);
+  const FinishedStop& stop = script.stops()[0];
+  EXPECT_EQ(stop.vehicle, 0U);
+  EXPECT_TRUE(stop.equipped);
+  EXPECT_EQ(stop.began, 1);
+  EXPECT_EQ(stop.ended, 7);
+  EXPECT_EQ(stop.standing_steps, 5U);
+  EXPECT_DOUBLE_EQ(stop.distance_m, 29.75);
+  EXPECT_EQ(stop.cause, "lost_burst");
+  EXPECT_EQ(stop.guidance, "expired");
+  EXPECT_EQ(stop.missed, "lost_burst");
+  EXPECT_TRUE(script.measures().lasting_stops().empty());
+}
+
+TEST(RunMeasures, EndsAStopAtTheStopLine) {
+  Script script;
+  script.enter(0);
+  script.drive(0, 0.0, 15.0);
+  script.next();
+  script.drive(0, 499.9, 1.0);
+  script.next();
+  script.drive(0, 500.1, 1.3, CarState::kExit);
+  script.cross(0, 0.15);
+  script.next();
+  ASSERT_EQ(script.stops().size(), 1U);
+  EXPECT_EQ(script.stops()[0].standing_steps, 1U);
+  EXPECT_EQ(script.stops()[0].ended, 2);
+}
+
+TEST(RunMeasures, SeesTheCarAheadOfAStopOnlyIfItStandsBeforeTheLine) {
+  for (const auto& [speed_mps, state, cause] : {std::tuple(0.5, CarState::kIn, "queue_ahead"),
+                                                {3.0, CarState::kIn, "overridden_red"},
+                                                {0.5, CarState::kExit, "overridden_red"}}) {
+    Script script;
+    script.enter(0);
+    script.drive(0, 10.0, 15.0);
+    script.next();
+    script.enter(4, true);
+    script.drive(0, 490.0, speed_mps, state);
+    script.drive_guided(4, 480.0, 1.0, GuidanceState::kInForce);
+    script.next();
+    ASSERT_FALSE(script.measures().lasting_stops().empty());
+    EXPECT_EQ(script.measures().lasting_stops().back().cause, cause);
+  }
+}
+
+TEST(RunMeasures, CountsEveryStopUnderOneCause) {
+  Script script;
+  for (const std::uint32_t vehicle : {0U, 4U, 8U}) script.enter(vehicle, vehicle != 0);
+  for (int round = 0; round < 3; ++round) {
+    for (const double speed_mps : {10.0, 0.0}) {
+      script.drive(0, 300.0, speed_mps);
+      script.drive_guided(4, 200.0, speed_mps, GuidanceState::kReleased, BoundBy::kCarAhead);
+      script.drive_guided(8, 100.0, speed_mps, GuidanceState::kInForce, BoundBy::kAdvice);
+      script.next();
+    }
+  }
+  const RunFigures figures = script.measures().figures();
+  EXPECT_EQ(figures.stops_total, 9U);
+  const auto of = [&](StopCause cause) { return figures.stops_by_cause[static_cast<std::size_t>(cause)]; };
+  EXPECT_EQ(of(StopCause::kUnequipped), 3U);
+  EXPECT_EQ(of(StopCause::kQueueAhead), 3U);
+  EXPECT_EQ(of(StopCause::kAdvised), 3U);
+  EXPECT_EQ(script.stops().size() + script.measures().lasting_stops().size(), 9U);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "common/results/inspection.hpp"
 
 #include "common/core/hash.hpp"
+#include "common/results/event_tables.hpp"
 #include "common/results/result_folder.hpp"
 #include "common/results/tables.hpp"
 #include "tests/unit/common/results/test_folder.hpp"
@@ -135,7 +136,7 @@ TEST_F(Results, OfALostRecorderAreRepairedToTheLastStepThatAllTablesHave) {
   shorten("road.csv", kLastRow + 1);  // step 5 is not there, step 4 is torn
   append("car.csv", "6,WL,");
   append("stop.csv", "6,0.6,0");
-  write("guidance.csv", "step,vehicle\n1,4\n3,4\n4,4\n4,");
+  write("others.csv", "step,vehicle\n1,4\n3,4\n4,4\n4,");
   write("summary.json.unfinished", "{");
   Manifest lost = facts("lost:recorder");
   lost.culprit = "the recorder was killed by signal 9";
@@ -148,13 +149,50 @@ TEST_F(Results, OfALostRecorderAreRepairedToTheLastStepThatAllTablesHave) {
   EXPECT_EQ(inspect(folder()).value().manifest, manifest.value());
   // t_3 = 0.3 s: the car that left at 0.25 s stays, the one at 0.45 s goes.
   EXPECT_EQ(content("car.csv"), car_columns() + "\n4,WL,0,0,0,0,0,0,0,0,0.0,0.25\n");
-  EXPECT_EQ(content("guidance.csv"), "step,vehicle\n1,4\n3,4\n");
+  EXPECT_EQ(content("others.csv"), "step,vehicle\n1,4\n3,4\n");
   for (const FileEntry& file : manifest.value().files) {
     EXPECT_EQ(file.sha256, sha256_hex(content(file.name))) << file.name;
     if (file.name == kStopTable || file.name == kRoadTable || file.name == kStopTimeTable) {
       EXPECT_EQ(file.rows, 3);
     }
   }
+}
+
+/// A row of stops.csv.
+std::string stop_row(Step step) {
+  return std::to_string(step) + ",0.1,4,WL,0,1,0.1,2.5,0.1,unequipped,not_equipped,\n";
+}
+
+TEST_F(Results, MayHoldTablesOfEvents) {
+  write("stops.csv", stops_columns() + "\n" + stop_row(2) + stop_row(2) + stop_row(5));
+  write("guidance.csv", guidance_columns() + "\n");
+  finish();
+  EXPECT_EQ(faults(), "");
+}
+
+TEST_F(Results, SayWhichEventIsOutOfOrderOrBeyondTheEnd) {
+  finish();
+  write("stops.csv", stops_columns() + "\n" + stop_row(3) + stop_row(2));
+  EXPECT_EQ(faults(),
+            "* stops.csv:3: is of step `2`, must be of one from 3 to 5\n"
+            "stops.csv: does not stand in the manifest\n");
+  write("stops.csv", stops_columns() + "\n" + stop_row(6));
+  EXPECT_EQ(faults(),
+            "* stops.csv:2: is of step `6`, must be of one from 0 to 5\n"
+            "stops.csv: does not stand in the manifest\n");
+  write("stops.csv", "step\n");
+  EXPECT_NE(faults().find("stops.csv:1: has other columns than " + stops_columns()), std::string::npos);
+}
+
+TEST_F(Results, OfALostRecorderKeepTheEventsUpToTheLastStep) {
+  shorten("road.csv", kLastRow);  // complete to step 4
+  write("stops.csv", stops_columns() + "\n" + stop_row(2) + stop_row(4) + stop_row(5) + "5,0.5");
+  write("guidance.csv", "");  // killed before the first row
+  const auto manifest = repair(folder(), facts("lost:recorder"));
+  ASSERT_TRUE(manifest.ok()) << manifest.error().text();
+  EXPECT_EQ(content("stops.csv"), stops_columns() + "\n" + stop_row(2) + stop_row(4));
+  EXPECT_EQ(content("guidance.csv"), guidance_columns() + "\n");
+  EXPECT_EQ(faults(), "");
 }
 
 TEST_F(Results, ThatAreWholeAreNotTouchedByRepair) {

@@ -46,13 +46,13 @@ TEST_F(Tables, HaveARowPerStepAndARowPerCar) {
                           .lane = lane_of(Approach::kNorth, Turn::kRight),
                           .equipped = true,
                           .entered_s = 0.1,
-                          .init_velocity_mps = 12.5,
+                          .initial_speed_mps = 12.5,
                           .theoretical_time_s = 30.25,
                           .act_time_s = 45.5,
                           .delta_s = 15.25,
                           .delay_s = 14.125,
                           .stops = 1,
-                          .stop_time_steps = 83,
+                          .standing_steps = 83,
                           .left_s = 52.0625});
   tables.value().add_step(2, stop, road, stop_time);
   ASSERT_TRUE(tables.value().sync().ok());

@@ -28,8 +28,11 @@ TEST(Change, OfAnotherFieldIsRefusedWithTheListOfLiveFields) {
   EXPECT_EQ(result.error().text(),
             "vehicles.length_m=4: vehicles.length_m cannot change while a run goes on; these can: "
             "traffic.west.flow_veh_per_h, traffic.south.flow_veh_per_h, traffic.east.flow_veh_per_h, "
-            "traffic.north.flow_veh_per_h, vehicles.equipped_ratio, vehicles.positioning, vehicles.clock_offset_ms, "
-            "signals.preset, signals.plan, "
+            "traffic.north.flow_veh_per_h, vehicles.equipped_ratio, vehicles.on_board_unit.fallback_s, "
+            "vehicles.on_board_unit.rsu_lost_after_s, vehicles.compliance.human_share, "
+            "vehicles.compliance.ignoring_share, vehicles.compliance.reaction_s, "
+            "vehicles.compliance.gain_deviation, vehicles.compliance.threshold_mps2, vehicles.positioning, "
+            "vehicles.clock_offset_ms, signals.preset, signals.plan, "
             "radio.uplink.latency, radio.uplink.loss.rate, radio.uplink.loss.burst, radio.uplink.range_m, "
             "radio.uplink.duplicate_rate, radio.downlink.latency, radio.downlink.loss.rate, radio.downlink.loss.burst, "
             "radio.downlink.range_m, radio.downlink.duplicate_rate, "

@@ -26,7 +26,7 @@ constexpr BadFile kBadFiles[] = {
      "my.textproto:2:10: Demand has no field `flow_veh_h`; did you mean `flow_veh_per_h`?"},
     {"weather { }",
      "my.textproto:1:1: Scenario has no field `weather`; it has run, traffic, vehicles, driving, signals, "
-     "radio, rsus"},
+     "radio, rsus, record"},
     {"run { duration_s: long }", "my.textproto:1:19: expected a number, got: long"},
     {"run { seed: -1 }", "my.textproto:1:13: expected a whole number, got: -"},
     {"run { duration_s: 10", "my.textproto:1:21: the text ends here, but a `}` is missing"},
@@ -166,6 +166,16 @@ TEST(Resolved, IsCopiedByValue) {
   ASSERT_TRUE(change(copy, "vehicles.equipped_ratio=0.25").ok());
   EXPECT_EQ(copy.message().vehicles().equipped_ratio(), 0.25);
   EXPECT_EQ(first.value().message().vehicles().equipped_ratio(), 0.7);
+}
+
+TEST(Load, RefusesSharesOfDriversThatAddUpToMoreThanAll) {
+  const auto result =
+      load_text("vehicles { compliance { human_share: 0.7 ignoring_share: 0.4 } }", "my.textproto", "/");
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(
+      result.error().text(),
+      "my.textproto:1:25: vehicles.compliance.human_share is 0.7, must be within [0, 1 - ignoring_share], [0, 0.6]");
+  EXPECT_TRUE(load_text("vehicles { compliance { human_share: 0.6 ignoring_share: 0.4 } }", "my.textproto", "/").ok());
 }
 
 }  // namespace

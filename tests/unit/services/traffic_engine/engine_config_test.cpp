@@ -52,6 +52,13 @@ TEST(EngineConfig, OfAnEmptyScenarioIsTheDefaultOfTheModel) {
   EXPECT_EQ(from.driving.reaction_time_s, model.driving.reaction_time_s);
   EXPECT_EQ(config.value().unit_errors, traffic::UnitErrorParameters{});
   EXPECT_TRUE(config.value().sensors.empty());
+  EXPECT_EQ(from.unit.fallback_s, model.unit.fallback_s);
+  EXPECT_EQ(from.unit.rsu_lost_after_s, model.unit.rsu_lost_after_s);
+  EXPECT_EQ(from.compliance.human_share, model.compliance.human_share);
+  EXPECT_EQ(from.compliance.ignoring_share, model.compliance.ignoring_share);
+  EXPECT_EQ(from.compliance.reaction_s, model.compliance.reaction_s);
+  EXPECT_EQ(from.compliance.gain_deviation, model.compliance.gain_deviation);
+  EXPECT_EQ(from.compliance.threshold_mps2, model.compliance.threshold_mps2);
   for (std::size_t i = 0; i < kApproaches; ++i) {
     EXPECT_FALSE(from.demand[i].listed);
     ASSERT_EQ(from.demand[i].flows.size(), 1U);

@@ -77,7 +77,7 @@ TEST(EngineNodeRadio, RefusesAdviceThatArrivesAfterItsLifetime) {
   const RoadsideBatch batch = guidance(100, drive.air().frames.sender[0], -0.37, 500);
   drive.step(&batch);
   drive.run_to(107);  // heard at t_106
-  EXPECT_EQ(drive.traffic().fate, fates({AdviceFate::kExpired}));
+  EXPECT_EQ(drive.traffic().fate, fates({AdviceFate::kLate}));
 }
 
 TEST(EngineNodeRadio, SaysWhyAdviceIsLost) {
@@ -168,6 +168,87 @@ TEST(EngineNodeRadio, ChangesWhileTheRunGoesOn) {
   const RoadsideBatch batch = guidance(100, car, -0.37);
   drive.step(&batch);
   EXPECT_EQ(drive.traffic().fate, fates({AdviceFate::kLostRandom}));
+}
+
+/// A batch of an RSU that says SPAT alone. The payload is of no interest: that it is heard is all.
+RoadsideBatch spat(Step step) {
+  RoadsideBatch batch = guidance(step, 1, std::nullopt);
+  batch.frames.kind[0] = static_cast<std::uint8_t>(FrameKind::kSpat);
+  return batch;
+}
+
+GuidanceState state_of(const Drive& drive) { return static_cast<GuidanceState>(drive.traffic().guidance.at(0)); }
+
+/// Steps until an advice of 10 s comes to its end, while the RSU goes on speaking or not.
+Step steps_until_given_up(const EngineConfig& config, bool speaks) {
+  Drive drive(config);
+  drive.run_to(100);
+  const RoadsideBatch advice = guidance(100, drive.air().frames.sender[0], -0.05, 10'000);
+  drive.step(&advice);
+  while (state_of(drive) == GuidanceState::kInForce) {
+    const RoadsideBatch batch = spat(drive.now());
+    drive.step(speaks ? &batch : nullptr);
+  }
+  EXPECT_EQ(state_of(drive), speaks ? GuidanceState::kExpired : GuidanceState::kRsuUnheard);
+  return drive.now() - 100;
+}
+
+TEST(EngineNodeRadio, EndsLongAdviceOfAnRsuThatFellSilent) {
+  // Heard at t_100, silent from then on: 2 s have passed at t_120, so step 121 is the first without the advice. An RSU
+  // that speaks is believed until the 10 s are over, in step 201. With and without a modelled radio.
+  for (const EngineConfig& config : {lone_car_from_the_west(), with_downlink({})}) {
+    EXPECT_EQ(steps_until_given_up(config, false), 21);
+    EXPECT_EQ(steps_until_given_up(config, true), 101);
+  }
+}
+
+TEST(EngineNodeRadio, DoesNotHearAnRsuThatIsOutOfRange) {
+  LinkModel near;
+  near.range_m = 50.0;  // the car is about 350 m away, and more than 200 m when the silence counts
+  EngineConfig config = with_downlink({});
+  Drive drive(config);
+  drive.run_to(100);
+  const RoadsideBatch advice = guidance(100, drive.air().frames.sender[0], -0.05, 10'000);
+  drive.step(&advice);
+  config.radio.downlink = near;
+  drive.node().change(config);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(state_of(drive), GuidanceState::kInForce);
+    const RoadsideBatch batch = spat(drive.now());
+    drive.step(&batch);
+  }
+  EXPECT_EQ(state_of(drive), GuidanceState::kRsuUnheard);
+}
+
+TEST(EngineNodeRadio, KeepsTheNewestMissedWordForFiveSeconds) {
+  LinkModel noisy;
+  noisy.loss_rate = 1.0;
+  Drive drive(with_downlink(noisy));
+  drive.run_to(100);
+  const RoadsideBatch batch = guidance(100, drive.air().frames.sender[0], -0.37);
+  drive.step(&batch);
+  EXPECT_EQ(drive.traffic().missed[0], static_cast<std::uint8_t>(AdviceFate::kLostRandom));
+  EXPECT_EQ(state_of(drive), GuidanceState::kNeverAdvised);
+  drive.run_to(150);
+  EXPECT_EQ(drive.traffic().missed[0], static_cast<std::uint8_t>(AdviceFate::kLostRandom));
+  drive.step();
+  EXPECT_EQ(drive.traffic().missed[0], kNothingMissed);
+}
+
+TEST(EngineNodeRadio, ForgetsAMissedWordWhenANewerOneIsHeard) {
+  EngineConfig config = with_downlink({});
+  config.radio.downlink.loss_rate = 1.0;
+  Drive drive(config);
+  drive.run_to(100);
+  const std::uint64_t car = drive.air().frames.sender[0];
+  const RoadsideBatch lost = guidance(100, car, -0.37);
+  drive.step(&lost);
+  config.radio.downlink.loss_rate = 0.0;
+  drive.node().change(config);
+  const RoadsideBatch release = guidance(101, car, std::nullopt);
+  drive.step(&release);
+  EXPECT_EQ(drive.traffic().missed[0], kNothingMissed);
+  EXPECT_EQ(state_of(drive), GuidanceState::kReleased);
 }
 
 TEST(EngineNodeRadio, RefusesAReceptionReportWithBrokenColumns) {

@@ -72,12 +72,18 @@ TEST(EngineNode, LetsGuidanceOfOneStepActInTheNext) {
   EXPECT_EQ(drive.traffic().fate_vehicle[0], 0U);
   EXPECT_EQ(drive.traffic().fate_rsu[0], 2U);
   EXPECT_EQ(drive.traffic().fate_sequence[0], 41U);
+  EXPECT_EQ(drive.traffic().fate_issued[0], 100);
+  EXPECT_EQ(drive.traffic().fate_commanded_mps2[0], -0.37);
+  EXPECT_EQ(drive.traffic().guidance[0], static_cast<std::uint8_t>(GuidanceState::kInForce));
+  EXPECT_EQ(drive.traffic().bound_by[0], static_cast<std::uint8_t>(BoundBy::kAdvice));
   // 250 ms: the steps that begin 0, 100 and 200 ms after the issue.
   drive.run_to(103);
   EXPECT_NEAR(drive.traffic().acceleration_mps2[0], -0.37, 1e-12);
   drive.step();
-  EXPECT_GT(drive.traffic().acceleration_mps2[0], 0.0);
+  // A tenth of the way to natural driving: the wish to be at 15 m/s again, which is 0.111 m/s away.
+  EXPECT_NEAR(drive.traffic().acceleration_mps2[0], 0.9 * -0.37 + 0.1 * 0.111, 1e-6);
   EXPECT_TRUE(std::isnan(drive.traffic().commanded_mps2[0]));
+  EXPECT_EQ(drive.traffic().guidance[0], static_cast<std::uint8_t>(GuidanceState::kExpired));
   EXPECT_EQ(drive.traffic().heard_epoch, (std::vector<std::uint32_t>{0}));
 }
 

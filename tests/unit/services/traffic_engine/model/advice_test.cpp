@@ -26,7 +26,7 @@ TEST(Advice, IsUsedAsCommandedForItsWholeLife) {
     EXPECT_NEAR(ride.cars()[0].motion.acceleration_mps2, -0.37, 1e-12);
     EXPECT_DOUBLE_EQ(ride.cars()[0].commanded_mps2, -0.37);
   }
-  ride.step();  // the life has ended: 15 m/s is wanted again
+  ride.run_to(63);  // the life has ended, and a second has passed: 15 m/s is wanted again
   EXPECT_GT(ride.cars()[0].motion.acceleration_mps2, 0.0);
   EXPECT_TRUE(std::isnan(ride.cars()[0].commanded_mps2));
   expect_one(ride.take_outcomes(), AdviceOutcome::kApplied);
@@ -156,16 +156,16 @@ TEST(Advice, EndsAtTheStopLine) {
   EXPECT_GT(ride.cars()[0].motion.acceleration_mps2, 0.0);
 }
 
-TEST(Advice, ThatComesAfterItsLifeHasExpired) {
+TEST(Advice, ThatComesAfterItsLifeIsLate) {
   Ride ride(with_arrivals(calm_parameters(), {0.0}));
   ride.run_to(50);
   Advice late = ride.advise(0, 1.0, 3);
   late.issued = 47;  // good for the steps 48, 49, 50
   send(ride, late);
-  expect_one(ride.take_outcomes(), AdviceOutcome::kExpired);
+  expect_one(ride.take_outcomes(), AdviceOutcome::kLate);
   late.issued = 48;
   send(ride, late);  // step 52 > 51
-  expect_one(ride.take_outcomes(), AdviceOutcome::kExpired);
+  expect_one(ride.take_outcomes(), AdviceOutcome::kLate);
   late.issued = 50;
   send(ride, late);  // step 53 = 50 + 3
   expect_one(ride.take_outcomes(), AdviceOutcome::kApplied);

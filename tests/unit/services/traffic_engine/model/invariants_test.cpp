@@ -159,11 +159,18 @@ EngineParameters random_parameters() {
   parameters.driving.standstill_spacing_m = 5.5 + 2.0 * percent();
   parameters.driving.discharge_speed_mps = (3.0 + 12.0 * percent()) / 3.6;
   parameters.equipped_ratio = *rc::gen::element(0.0, 0.3, 1.0);
+  parameters.unit.fallback_s = *rc::gen::element(0.0, 1.0, 10.0);
+  parameters.unit.rsu_lost_after_s = *rc::gen::element(0.1, 2.0);
   return parameters;
 }
 
 RC_GTEST_PROP(Invariants, HoldInEveryStepOfAnyRun, ()) {
-  const EngineParameters parameters = random_parameters();
+  EngineParameters parameters = random_parameters();
+  parameters.compliance = {.human_share = *rc::gen::element(0.0, 0.6),
+                           .ignoring_share = 0.2,
+                           .reaction_s = *rc::gen::element(0.0, 0.3, 2.0),
+                           .gain_deviation = 0.5,
+                           .threshold_mps2 = 0.2};
   std::array<int, 6> lengths_s{};
   for (int& length_s : lengths_s) length_s = *rc::gen::inRange(0, 40);
   lengths_s[2] += 1;

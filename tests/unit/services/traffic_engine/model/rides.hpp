@@ -48,6 +48,7 @@ class Ride {
   void show(Aspect aspect) { heads_ = all_heads(aspect); }
   void show(const Heads& heads) { heads_ = heads; }
   void step(std::span<const Advice> advice = {}) {
+    engine_.hear_rsu(0, step_);
     engine_.step(++step_, heads_, advice);
     for (const Crossing& crossing : engine_.events().crossings) crossings_.push_back(crossing);
     for (const OutcomeEvent& outcome : engine_.events().outcomes) outcomes_.push_back(outcome);

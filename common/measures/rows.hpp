@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "common/core/step.hpp"
+#include "common/intersection/lane.hpp"
+
+// What is measured of one car, one stop, one advice: rows of tables. docs/results.md defines each column.
+
+namespace lukou {
+
+/// A row of car.csv: a car that has left the end of its exit.
+struct FinishedCar {
+  std::uint32_t vehicle = 0;
+  Lane lane{};
+  bool equipped = false;
+  double entered_s = 0.0;
+  double initial_speed_mps = 0.0;
+  double theoretical_time_s = 0.0;   ///< entrance to stop line
+  double act_time_s = 0.0;           ///< entrance to stop line
+  double delta_s = 0.0;              ///< act_time - theoretical_time
+  double delay_s = 0.0;              ///< entrance to the end of the exit, less the time of the same driver unhindered
+  std::uint32_t stops = 0;           ///< before the stop line
+  std::uint32_t standing_steps = 0;  ///< before the stop line
+  double left_s = 0.0;
+};
+
+/// A row of stops.csv: a stop that is over, or that the end of the run has cut short.
+struct FinishedStop {
+  Step ended = 0;  ///< the step in which the car was fast again or crossed its stop line; the last one of the run
+  std::uint32_t vehicle = 0;
+  Lane lane{};
+  bool equipped = false;
+  Step began = 0;
+  double distance_m = 0.0;           ///< to the stop line when it began
+  std::uint32_t standing_steps = 0;  ///< slower than the stop speed
+  std::string_view cause;            ///< name of a StopCause; text that lives for ever, as the next two
+  std::string_view guidance;         ///< name of the GuidanceState when it began
+  std::string_view missed;           ///< name of the fate of the newest word if it was lost or late; or empty
+};
+
+/// A row of guidance.csv: an advice whose fate is final.
+struct SettledAdvice {
+  Step settled = 0;
+  std::optional<Step> issued;  ///< empty: not decodable, as the next ones but `fate`
+  std::uint32_t rsu = 0;
+  std::uint32_t sequence = 0;
+  std::optional<std::uint32_t> vehicle;  ///< empty: nobody on the road, as the next
+  std::optional<Lane> lane;
+  double commanded_mps2 = 0.0;     ///< not a number: not decodable
+  std::string_view fate;           ///< name of an AdviceFate; text that lives for ever
+  std::optional<Step> first_used;  ///< empty: never, as the next
+  std::optional<Step> last_used;
+};
+
+}  // namespace lukou

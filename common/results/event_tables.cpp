@@ -1,0 +1,97 @@
+#include "common/results/event_tables.hpp"
+
+#include <utility>
+
+namespace lukou::results {
+namespace {
+
+void whole_or_empty(TableWriter& table, const std::optional<Step>& step) { step ? table.whole(*step) : table.name(""); }
+
+}  // namespace
+
+std::string stops_columns() {
+  return "step,time_s,vehicle,lane,equipped,began_step,began_s,distance_m,stood_s,cause,guidance,missed";
+}
+std::string guidance_columns() {
+  return "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step";
+}
+
+Expected<EventTables> EventTables::create(const std::filesystem::path& folder, const Asked& asked) {
+  EventTables tables;
+  if (asked.stops) {
+    auto stops = TableWriter::create(folder / kStopsTable, stops_columns());
+    if (!stops) return stops.error();
+    tables.stops_.emplace(std::move(stops).value());
+  }
+  if (asked.guidance) {
+    auto guidance = TableWriter::create(folder / kGuidanceTable, guidance_columns());
+    if (!guidance) return guidance.error();
+    tables.guidance_.emplace(std::move(guidance).value());
+  }
+  return tables;
+}
+
+void EventTables::add(const FinishedStop& row) {
+  if (!stops_) return;
+  stops_->whole(row.ended);
+  stops_->tenths(row.ended);
+  stops_->count(row.vehicle);
+  stops_->name(name(row.lane));
+  stops_->whole(row.equipped ? 1 : 0);
+  stops_->whole(row.began);
+  stops_->tenths(row.began);
+  stops_->real(row.distance_m);
+  stops_->tenths(row.standing_steps);
+  stops_->name(row.cause);
+  stops_->name(row.guidance);
+  stops_->name(row.missed);
+  stops_->end_row();
+}
+
+void EventTables::add(const SettledAdvice& row) {
+  if (!guidance_) return;
+  TableWriter& table = *guidance_;
+  table.whole(row.settled);
+  table.tenths(row.settled);
+  whole_or_empty(table, row.issued);
+  row.issued ? table.tenths(*row.issued) : table.name("");
+  table.count(row.rsu);
+  table.count(row.sequence);
+  row.vehicle ? table.count(*row.vehicle) : table.name("");
+  table.name(row.lane ? name(*row.lane) : std::string_view());
+  table.real(row.commanded_mps2);
+  table.name(row.fate);
+  // Advice that is used in step k acts from t(k-1) on.
+  row.first_used&& row.issued ? table.tenths(*row.first_used - 1 - *row.issued) : table.name("");
+  whole_or_empty(table, row.last_used);
+  table.end_row();
+}
+
+Expected<Done> EventTables::flush() {
+  for (std::optional<TableWriter>* table : {&stops_, &guidance_}) {
+    if (!*table) continue;
+    if (auto flushed = (*table)->flush(); !flushed) return flushed;
+  }
+  return Done{};
+}
+
+Expected<Done> EventTables::sync() {
+  for (std::optional<TableWriter>* table : {&stops_, &guidance_}) {
+    if (!*table) continue;
+    if (auto synced = (*table)->sync(); !synced) return synced;
+  }
+  return Done{};
+}
+
+std::size_t EventTables::buffered_bytes() const {
+  return (stops_ ? stops_->buffered_bytes() : 0) + (guidance_ ? guidance_->buffered_bytes() : 0);
+}
+
+std::vector<FileEntry> EventTables::entries() const {
+  std::vector<FileEntry> entries;
+  if (guidance_) entries.push_back({kGuidanceTable, guidance_->sha256(), guidance_->rows_flushed()});
+  if (stops_) entries.push_back({kStopsTable, stops_->sha256(), stops_->rows_flushed()});
+  return entries;
+}
+
+}  // namespace lukou::results

@@ -1,0 +1,65 @@
+#include "common/results/event_tables.hpp"
+
+#include <limits>
+
+#include "common/core/hash.hpp"
+#include "tests/unit/common/results/test_folder.hpp"
+
+namespace lukou::results {
+namespace {
+
+using Events = InTestFolder;
+
+TEST_F(Events, AreWrittenAsDocumented) {
+  auto tables = EventTables::create(folder(), {.stops = true, .guidance = true});
+  ASSERT_TRUE(tables.ok()) << tables.error().text();
+  tables.value().add(FinishedStop{.ended = 812,
+                                  .vehicle = 9,
+                                  .lane = lane_of(Approach::kSouth, Turn::kCenter),
+                                  .equipped = true,
+                                  .began = 500,
+                                  .distance_m = 12.25,
+                                  .standing_steps = 301,
+                                  .cause = "lost_burst",
+                                  .guidance = "expired",
+                                  .missed = "lost_burst"});
+  tables.value().add(SettledAdvice{.settled = 120,
+                                   .issued = 112,
+                                   .rsu = 0,
+                                   .sequence = 77,
+                                   .vehicle = 9,
+                                   .lane = lane_of(Approach::kSouth, Turn::kCenter),
+                                   .commanded_mps2 = -0.37,
+                                   .fate = "applied",
+                                   .first_used = 115,
+                                   .last_used = 119});
+  SettledAdvice garbled{.settled = 121, .rsu = 1, .sequence = 3, .fate = "malformed"};
+  garbled.commanded_mps2 = std::numeric_limits<double>::quiet_NaN();
+  tables.value().add(garbled);
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_EQ(content("stops.csv"),
+            "step,time_s,vehicle,lane,equipped,began_step,began_s,distance_m,stood_s,cause,guidance,missed\n"
+            "812,81.2,9,SC,1,500,50.0,12.25,30.1,lost_burst,expired,lost_burst\n");
+  // Used in step 115: it acts from t_114 on, 0.2 s after its issue.
+  EXPECT_EQ(content("guidance.csv"),
+            "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step\n"
+            "120,12.0,112,11.2,0,77,9,SC,-0.37,applied,0.2,119\n"
+            "121,12.1,,,1,3,,,,malformed,,\n");
+  const auto entries = tables.value().entries();
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].name, "guidance.csv");
+  EXPECT_EQ(entries[0].rows, 2);
+  EXPECT_EQ(entries[1].sha256, sha256_hex(content("stops.csv")));
+}
+
+TEST_F(Events, AreLeftOutWhenNobodyAskedForThem) {
+  auto tables = EventTables::create(folder(), {});
+  ASSERT_TRUE(tables.ok());
+  tables.value().add(FinishedStop{});
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_TRUE(tables.value().entries().empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder()));
+}
+
+}  // namespace
+}  // namespace lukou::results
