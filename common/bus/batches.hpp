@@ -62,8 +62,12 @@ enum class AdviceFate : std::uint8_t {
   kLostRange = 13,        ///< ... the car was out of range
   kStale = 14,            ///< dropped: a word issued later had reached the car before
   kDuplicate = 15,        ///< dropped: the same frame had reached the car before
+  kLostPathLoss = 16,     ///< its frame did not reach the car: too weak there
+  kLostCollision = 17,    ///< ... another station sent in the same resource
+  kLostHalfDuplex = 18,   ///< ... the car was sending itself
+  kLostOutage = 19,       ///< ... a planned outage
 };
-inline constexpr std::size_t kAdviceFates = 16;
+inline constexpr std::size_t kAdviceFates = 24;
 
 /// Engine to recorder: the truth at t_step, with what happened in (t_step-1, t_step].
 struct TrafficBatch {

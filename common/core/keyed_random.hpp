@@ -21,7 +21,17 @@ enum class Purpose : std::uint16_t {
   kRadioLoss = 12,           ///< independent loss
   kRadioBurst = 13,          ///< transition between the states of a bursty link
   kRadioDuplicate = 14,      ///< whether a frame is heard twice
-  kTest = 100,               ///< tests
+  // Of a station or a pair of stations; entity and index: common/radio.
+  kRadioReservation = 15,         ///< when a station reserves anew
+  kRadioKeep = 16,                ///< whether it keeps its resource then
+  kRadioSubframe = 17,            ///< which subframe a reservation uses
+  kRadioReservedLatency = 18,     ///< latency of a reservation: uniform, or the first exponential
+  kRadioReservedLatency2nd = 19,  ///< the second exponential
+  kRadioShadowing = 20,           ///< a cell's share of the shadowing
+  kRadioSight = 21,               ///< whether a pair of cars sees each other along a street
+  kRadioBlocker = 22,             ///< what the car between two cars takes away
+  kRadioCollision = 23,           ///< whether a reservation collides at a receiver
+  kTest = 100,                    ///< tests
 };
 
 /// A draw is a pure function of its key: neither order nor other draws can change it.

@@ -32,7 +32,10 @@ constexpr std::pair<AdviceFate, const char*> kRefused[] = {
     {AdviceFate::kSuperseded, "superseded"},       {AdviceFate::kUnknownVehicle, "unknown_vehicle"},
     {AdviceFate::kMalformed, "malformed"},         {AdviceFate::kOutOfLimit, "limit"}};
 constexpr std::pair<AdviceFate, const char*> kLost[] = {
-    {AdviceFate::kLostRandom, "random"}, {AdviceFate::kLostBurst, "burst"}, {AdviceFate::kLostRange, "range"}};
+    {AdviceFate::kLostRandom, "random"},       {AdviceFate::kLostBurst, "burst"},
+    {AdviceFate::kLostRange, "range"},         {AdviceFate::kLostPathLoss, "path_loss"},
+    {AdviceFate::kLostCollision, "collision"}, {AdviceFate::kLostHalfDuplex, "half_duplex"},
+    {AdviceFate::kLostOutage, "outage"}};
 constexpr std::pair<AdviceFate, const char*> kDropped[] = {{AdviceFate::kStale, "stale"},
                                                            {AdviceFate::kDuplicate, "duplicate"}};
 constexpr std::pair<AdviceFate, const char*> kChanged[] = {{AdviceFate::kChangedLimit, "limit"},

@@ -26,6 +26,14 @@ AdviceFate fate_of(LossCause cause) {
       return AdviceFate::kLostRandom;
     case LossCause::kBurst:
       return AdviceFate::kLostBurst;
+    case LossCause::kPathLoss:
+      return AdviceFate::kLostPathLoss;
+    case LossCause::kCollision:
+      return AdviceFate::kLostCollision;
+    case LossCause::kHalfDuplex:
+      return AdviceFate::kLostHalfDuplex;
+    case LossCause::kOutage:
+      return AdviceFate::kLostOutage;
     case LossCause::kRange:
       break;
   }
@@ -42,7 +50,11 @@ bool same_flows(const traffic::DemandParameters& a, const traffic::DemandParamet
 }  // namespace
 
 EngineNode::EngineNode(const EngineConfig& config)
-    : config_(config), engine_(config.traffic), modem_(config.radio.seed, config.radio.downlink) {}
+    : config_(config),
+      engine_(config.traffic),
+      modem_(config.radio.seed, config.radio.downlink, downlink_surroundings(config.radio)),
+      load_(config.radio.load, load_reach_m(config.traffic.road.approach_m, config.traffic.road.exit_m)),
+      between_cars_(config.radio) {}
 
 void EngineNode::change(const EngineConfig& config) {
   for (const Approach approach : kAllApproaches) {
@@ -56,7 +68,9 @@ void EngineNode::change(const EngineConfig& config) {
   config_.traffic.equipped_ratio = config.traffic.equipped_ratio;
   engine_.change_equipped_ratio(config.traffic.equipped_ratio);
   config_.radio = config.radio;
-  modem_.use(config.radio.downlink);
+  modem_.use(config.radio.downlink, downlink_surroundings(config.radio));
+  load_.use(config.radio.load, next_);
+  between_cars_.use(config.radio);
 }
 
 Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span<const RoadsideBatch* const> roadside,
@@ -71,8 +85,11 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   advice_.clear();
   fates_.clear();
   tally_.clear();
+  if (load_.counted()) tally_.busy_ratio = load_.busy_ratio_of_cars();
   for (const RoadsideBatch* batch : roadside) {
-    if (batch != nullptr) hear(*batch);
+    if (batch == nullptr) continue;
+    hear(*batch);
+    load_.add_roadside(batch->frames, batch->step);
   }
   if (config_.radio.modelled) deliver(k - 1);
   engine_.step(k, k > 0 ? promise_.at(k - 1) : Heads{}, advice_);
@@ -88,6 +105,9 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   air.step = k;
   air.frames.clear();
   speak(k, air.frames);
+  load_.add_air(air.frames, k);
+  between_cars_.hear(air.frames, k, load_);
+  next_ = k + 1;
   return Done{};
 }
 
@@ -136,11 +156,21 @@ void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch,
   }
   const Pose pose = pose_on_path(engine_.parameters().road, target->lane, target->car->motion.position_m);
   const PlanePoint car = centre_of_car({pose.x_m, pose.y_m}, pose.heading_rad, engine_.parameters().vehicles.length_m);
-  const Hop hop{.sender = batch.frames.sender[frame],
-                .receiver = advice.target,
-                .sequence = advice.sequence,
-                .sent = batch.step,
-                .distance_m = distance_m({batch.frames.antenna_x_m[frame], batch.frames.antenna_y_m[frame]}, car)};
+  const PlanePoint mast{batch.frames.antenna_x_m[frame], batch.frames.antenna_y_m[frame]};
+  Hop hop{.sender = batch.frames.sender[frame],
+          .receiver = advice.target,
+          .sequence = advice.sequence,
+          .sent = batch.step,
+          .distance_m = distance_m(mast, car),
+          .car = car,
+          .other = mast,
+          .rsu = batch.rsu,
+          .epoch = batch.epoch,
+          .place = static_cast<std::uint32_t>(frame),
+          .car_speed_mps = target->car->motion.speed_mps};
+  if (modem_.asks_for_collisions()) {
+    hop.collision_probability = load_.collision_from_mast(car, load_.width(batch.frames.wire_bytes[frame]));
+  }
   const Reception reception = modem_.receive(hop);
   tally_.count_sent(reception);
   if (!reception.lost) {
@@ -178,6 +208,9 @@ Expected<Done> EngineNode::report_reception(std::span<const RoadsideBatch* const
                                             TrafficBatch& traffic) const {
   if (!config_.radio.modelled) return Done{};
   traffic.reception.add(Direction::kDownlink, FrameKind::kRsc, tally_);
+  if (between_cars_.drawn()) {
+    traffic.reception.add(Direction::kVehicleToVehicle, FrameKind::kBsm, between_cars_.tally());
+  }
   for (const RoadsideBatch* batch : roadside) {
     if (batch == nullptr) continue;
     if (!batch->reception.well_formed()) {
