@@ -80,7 +80,7 @@ void ChannelLoad::build() {
   power_dbm_.assign(bins_ * bins_, 0.0);
   sensed_.assign(bins_ * bins_, 0.0);
   common_.assign(bins_ * bins_, 0.0);
-  colliders_.assign(bins_ * bins_, {});
+  survival_.assign(bins_ * bins_, {});
   for (std::size_t a = 0; a < bins_; ++a) {
     for (std::size_t b = a; b < bins_; ++b) {
       PlanePoint to = centre_of(b);
@@ -194,9 +194,10 @@ double ChannelLoad::too_strong(double advantage_db) const {
 
 double ChannelLoad::collision(std::size_t sender, std::size_t receiver, std::uint32_t width) {
   if (frames_.empty()) return 0.0;
-  Colliders& known = colliders_[pair(sender, receiver)];
+  Survival& known = survival_[pair(sender, receiver)];
   if (known.update != update_) {
-    known = {.update = update_};
+    double colliders_of_one = 0.0;
+    double colliders_of_a_further = 0.0;
     const double all = kSubframes * model_.sub_channels;
     const double wanted_dbm = power_dbm_[pair(sender, receiver)];
     for (const std::size_t other : used_) {
@@ -207,13 +208,18 @@ double ChannelLoad::collision(std::size_t sender, std::size_t receiver, std::uin
       const double common = common_[pair(sender, other)];
       const double same = unseen * (common / free_[sender] + (1.0 - common) / all);
       const double lost = same * too_strong(wanted_dbm - power_dbm_[pair(other, receiver)]);
-      const double own = other == sender && other != mast() ? 1.0 : 0.0;
+      // Neither of the two disturbs itself; of an RSU no frame is left then, see above.
+      const double own = (other == sender ? 1.0 : 0.0) + (other == receiver ? 1.0 : 0.0);
       const double others = std::max(0.0, frames_[other] - own);
-      known.wide += lost * (frames_[other] > 0.0 ? sub_channels_[other] * others / frames_[other] : 0.0);
-      known.each += lost * others;
+      colliders_of_one += lost * (frames_[other] > 0.0 ? sub_channels_[other] * others / frames_[other] : 0.0);
+      colliders_of_a_further += lost * others;
     }
+    known = {
+        .update = update_, .of_one = math::exp(-colliders_of_one), .of_a_further = math::exp(-colliders_of_a_further)};
   }
-  return 1.0 - math::exp(-(known.wide + known.each * static_cast<double>(width - 1)));
+  double survival = known.of_one;
+  for (std::uint32_t further = 1; further < width; ++further) survival *= known.of_a_further;
+  return 1.0 - survival;
 }
 
 double ChannelLoad::collision_to_mast(const PlanePoint& car, std::uint32_t width) {

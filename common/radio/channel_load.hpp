@@ -45,11 +45,11 @@ class ChannelLoad {
   [[nodiscard]] double collision_between(const PlanePoint& sender, const PlanePoint& receiver, std::uint32_t width);
 
  private:
-  /// Expected colliders of a frame: `wide` for one sub-channel, `each` for every further one.
-  struct Colliders {
-    std::uint32_t update = 0;  ///< to which the figures belong
-    double wide = 0.0;
-    double each = 0.0;
+  /// Probability that a frame meets no collider.
+  struct Survival {
+    std::uint32_t update = 0;   ///< to which the figures belong
+    double of_one = 1.0;        ///< in one sub-channel
+    double of_a_further = 1.0;  ///< in each further one
   };
 
   void build();
@@ -83,7 +83,7 @@ class ChannelLoad {
   std::vector<std::size_t> used_;     ///< bins with a station
   double busy_of_cars_ = 0.0;
   std::uint32_t update_ = 0;
-  std::vector<Colliders> colliders_;  ///< of a pair, computed when it is asked for
+  std::vector<Survival> survival_;  ///< of a pair, computed when it is asked for
 };
 
 }  // namespace lukou
