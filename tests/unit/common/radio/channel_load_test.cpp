@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "common/radio/between_cars.hpp"
@@ -38,48 +39,59 @@ Frames road(double cars_per_m) {
   return frames;
 }
 
+constexpr double kAway_m[] = {50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 500.0};
+
 struct Reference {
   double cars_per_m;
   double busy;
-  double at_100_m;
-  double at_300_m;
+  double delivered[7];  ///< at the distances above
 };
-constexpr Reference kReferences[] = {{0.1, 0.27, 0.976, 0.907}, {0.3, 0.69, 0.929, 0.701}};
+constexpr Reference kReferences[] = {{0.05, 0.14, {0.987, 0.985, 0.983, 0.979, 0.955, 0.899, 0.669}},
+                                     {0.1, 0.27, {0.982, 0.976, 0.971, 0.961, 0.907, 0.821, 0.595}},
+                                     {0.2, 0.51, {0.968, 0.954, 0.941, 0.918, 0.804, 0.666, 0.455}},
+                                     {0.3, 0.69, {0.953, 0.929, 0.909, 0.872, 0.701, 0.528, 0.340}}};
 
 /// Share of frames that cars within 300 m of the centre deliver to a car `away_m` ahead: all causes together.
 double delivery_ratio(const Frames& air, ChannelLoad& load, double cars_per_m, double away_m) {
-  const Modem modem(8, {.path_loss = reference_path_loss(), .half_duplex = true, .collisions = true});
   const auto ahead = static_cast<std::size_t>(std::lround(away_m * cars_per_m));
   double sent = 0.0;
   double heard = 0.0;
-  for (std::size_t from = 0; from + ahead < air.size(); ++from) {
-    if (std::fabs(air.antenna_x_m[from]) > 300.0) continue;
-    const std::size_t to = from + ahead;
-    Hop hop{.sender = air.sender[from],
-            .receiver = air.sender[to],
-            .distance_m = away_m,
-            .car = {air.antenna_x_m[from], air.antenna_y_m[from]},
-            .other = {air.antenna_x_m[to], air.antenna_y_m[to]},
-            .between_cars = true};
-    hop.collision_probability = load.collision_between(hop.car, hop.other, load.width(air.wire_bytes[from]));
-    for (int n = 0; n < 300; ++n) {
-      hop.sequence = static_cast<std::uint32_t>(n);
-      hop.sent = 7 * n;
-      sent += 1.0;
-      heard += modem.receive(hop).lost ? 0.0 : 1.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Modem modem(seed, {.path_loss = reference_path_loss(), .half_duplex = true, .collisions = true});
+    for (std::size_t from = 0; from + ahead < air.size(); ++from) {
+      if (std::fabs(air.antenna_x_m[from]) > 300.0) continue;
+      const std::size_t to = from + ahead;
+      Hop hop{.sender = air.sender[from],
+              .receiver = air.sender[to],
+              .distance_m = away_m,
+              .car = {air.antenna_x_m[from], air.antenna_y_m[from]},
+              .other = {air.antenna_x_m[to], air.antenna_y_m[to]},
+              .between_cars = true};
+      hop.collision_probability = load.collision_between(hop.car, hop.other, load.width(air.wire_bytes[from]));
+      for (int n = 0; n < 20; ++n) {  // 15 steps apart: in each another reservation
+        hop.sequence = static_cast<std::uint32_t>(n);
+        hop.sent = 15 * n;
+        sent += 1.0;
+        heard += modem.receive(hop).lost ? 0.0 : 1.0;
+      }
     }
   }
   return heard / sent;
 }
 
 TEST(ChannelLoad, GivesTheBusyAndDeliveryRatiosOfMode4) {
+  // At least 12,000 frames a figure. They share 600 pairs' shadowing, which at 500 m gives a deviation of 0.018.
   for (const Reference& known : kReferences) {
     const Frames air = road(known.cars_per_m);
     ChannelLoad load({.counted = true, .path_loss = reference_path_loss()}, kReach_m);
     load.add_air(air, 0);
-    EXPECT_NEAR(load.busy_ratio({0.0, 5.0}), known.busy, 0.03) << known.cars_per_m;
-    EXPECT_NEAR(delivery_ratio(air, load, known.cars_per_m, 100.0), known.at_100_m, 0.03) << known.cars_per_m;
-    EXPECT_NEAR(delivery_ratio(air, load, known.cars_per_m, 300.0), known.at_300_m, 0.03) << known.cars_per_m;
+    EXPECT_NEAR(load.busy_ratio({0.0, 5.0}), known.busy, 0.01) << known.cars_per_m;
+    for (std::size_t i = 0; i < std::size(kAway_m); ++i) {
+      const double ratio = delivery_ratio(air, load, known.cars_per_m, kAway_m[i]);
+      // At 0.2 cars/m and at 400 m the deviations are larger: docs/radio.md says why.
+      const bool loose = known.cars_per_m == 0.2 || kAway_m[i] >= 400.0;
+      EXPECT_NEAR(ratio, known.delivered[i], loose ? 0.06 : 0.03) << known.cars_per_m << ", " << kAway_m[i] << " m";
+    }
   }
 }
 
