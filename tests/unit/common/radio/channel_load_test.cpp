@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "common/radio/between_cars.hpp"
@@ -86,8 +87,11 @@ TEST(ChannelLoad, GivesTheBusyAndDeliveryRatiosOfMode4) {
     ChannelLoad load({.counted = true, .path_loss = reference_path_loss()}, kReach_m);
     load.add_air(air, 0);
     EXPECT_NEAR(load.busy_ratio({0.0, 5.0}), known.busy, 0.01) << known.cars_per_m;
+    const std::string name = "per_km_" + std::to_string(std::lround(1000.0 * known.cars_per_m));
+    RecordProperty(name + "_busy", std::to_string(load.busy_ratio({0.0, 5.0})));
     for (std::size_t i = 0; i < std::size(kAway_m); ++i) {
       const double ratio = delivery_ratio(air, load, known.cars_per_m, kAway_m[i]);
+      RecordProperty(name + "_at_" + std::to_string(std::lround(kAway_m[i])), std::to_string(ratio));
       // At 0.2 cars/m and at 400 m the deviations are larger: docs/radio.md says why.
       const bool loose = known.cars_per_m == 0.2 || kAway_m[i] >= 400.0;
       EXPECT_NEAR(ratio, known.delivered[i], loose ? 0.06 : 0.03) << known.cars_per_m << ", " << kAway_m[i] << " m";
