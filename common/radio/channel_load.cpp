@@ -207,7 +207,7 @@ double ChannelLoad::collision(std::size_t sender, std::size_t receiver, std::uin
       const double unseen = 1.0 - (1.0 - 1.0 / kFramesPerSecond) * sensed_[pair(sender, other)];
       const double common = common_[pair(sender, other)];
       const double same = unseen * (common / free_[sender] + (1.0 - common) / all);
-      const double lost = same * too_strong(wanted_dbm - power_dbm_[pair(other, receiver)]);
+      const double lost = same * too_strong(wanted_dbm - power_dbm_[pair(receiver, other)]);
       // Neither of the two disturbs itself; of an RSU no frame is left then, see above.
       const double own = (other == sender ? 1.0 : 0.0) + (other == receiver ? 1.0 : 0.0);
       const double others = std::max(0.0, frames_[other] - own);

@@ -22,13 +22,6 @@ std::uint64_t mixed(std::uint64_t seed, LinkPart part, std::uint64_t number) {
   return random_bits({.run_seed = seed, .purpose = Purpose::kRadioLink, .entity = part, .index = number});
 }
 
-/// A number for the directed link. Two links share one with a probability of 2^-64. A later start of an RSU has links
-/// of its own: its sequence numbers begin again.
-std::uint64_t link_of(std::uint64_t seed, const Hop& hop) {
-  const std::uint64_t link = mixed(seed, kReceiver, mixed(seed, kSender, hop.sender) ^ hop.receiver);
-  return hop.epoch <= 1 ? link : mixed(seed, kEpoch, link ^ hop.epoch);
-}
-
 /// A number for the two stations, whoever sends.
 std::uint64_t pair_of(std::uint64_t seed, const Hop& hop) {
   const auto [low, high] = std::minmax(hop.sender, hop.receiver);
@@ -118,7 +111,7 @@ Reception Modem::receive(const Hop& hop) const {
     reception.lost = LossCause::kRange;
     return reception;
   }
-  const std::uint64_t link = link_of(seed_, hop);
+  const std::uint64_t link = link_of(hop);
   reception.lost = loss(link, hop);
   if (reception.lost) return reception;
   reception.first = arrival(link, hop);
@@ -129,6 +122,17 @@ Reception Modem::receive(const Hop& hop) const {
     if (reception.second->at_ms < reception.first.at_ms) std::swap(reception.first, *reception.second);
   }
   return reception;
+}
+
+std::uint64_t Modem::link_of(const Hop& hop) const {
+  Link& kept = links_.of(hop.sender + 0x9e37'79b9'7f4a'7c15 * hop.receiver);
+  if (kept.epoch == hop.epoch && kept.sender == hop.sender && kept.receiver == hop.receiver) return kept.number;
+  // Two links share a number with a probability of 2^-64. A later start of an RSU has links of its own: its sequence
+  // numbers begin again.
+  std::uint64_t number = mixed(seed_, kReceiver, mixed(seed_, kSender, hop.sender) ^ hop.receiver);
+  if (hop.epoch > 1) number = mixed(seed_, kEpoch, number ^ hop.epoch);
+  kept = {.sender = hop.sender, .receiver = hop.receiver, .epoch = hop.epoch, .number = number};
+  return number;
 }
 
 std::optional<LossCause> Modem::loss(std::uint64_t link, const Hop& hop) const {
@@ -200,17 +204,20 @@ bool Modem::in_bad_state(std::uint64_t link, std::uint32_t sequence) const {
 double Modem::latency_ms(std::uint64_t link, const Hop& hop) const {
   const LatencyModel& law = model_.latency;
   if (law.law == LatencyModel::Law::kConstant) return std::min(law.min_ms, kLatencyMax_ms);
+  const bool uniform = law.law == LatencyModel::Law::kUniform;
+  if (law.per_reservation && uniform) {
+    const double wait = stations_.wait(hop.sender, hop.sent, hop.place);
+    return std::min(law.min_ms + (law.max_ms - law.min_ms) * wait, kLatencyMax_ms);
+  }
   DrawKey first = draw_of(seed_, Purpose::kRadioLatency, link, hop.sequence);
   Purpose second = Purpose::kRadioLatencySecond;
   if (law.per_reservation) {
     // Of the sender's resource, so equal at every receiver.
-    const std::uint64_t resource = hop.sender + (static_cast<std::uint64_t>(hop.place) << 56U);
-    first =
-        draw_of(seed_, Purpose::kRadioReservedLatency, resource, stations_.reservation(hop.sender, hop.sent).number);
+    first = stations_.wait_key(hop.sender, hop.sent, hop.place);
     second = Purpose::kRadioReservedLatency2nd;
   }
   double drawn_ms = law.min_ms;
-  if (law.law == LatencyModel::Law::kUniform) {
+  if (uniform) {
     drawn_ms += (law.max_ms - law.min_ms) * uniform01(first);
   } else {
     // Gamma with shape 2 is the sum of two exponentials.

@@ -6,6 +6,7 @@
 
 #include "common/core/step.hpp"
 #include "common/messages/plane.hpp"
+#include "common/radio/kept.hpp"
 #include "common/radio/link_model.hpp"
 #include "common/radio/shadowing.hpp"
 #include "common/radio/stations.hpp"
@@ -85,6 +86,14 @@ class Modem {
   [[nodiscard]] bool asks_for_speed() const { return model_.latency.speed_factor; }
 
  private:
+  /// The number of a directed link.
+  struct Link {
+    std::uint64_t sender = 0;
+    std::uint64_t receiver = 0;
+    std::uint32_t epoch = 0;  ///< 0: not drawn yet
+    std::uint64_t number = 0;
+  };
+  [[nodiscard]] std::uint64_t link_of(const Hop& hop) const;
   [[nodiscard]] std::optional<LossCause> loss(std::uint64_t link, const Hop& hop) const;
   [[nodiscard]] bool too_weak(const Hop& hop) const;
   [[nodiscard]] bool in_bad_state(std::uint64_t link, std::uint32_t sequence) const;
@@ -97,6 +106,7 @@ class Modem {
   double good_to_bad_ = 0.0;  ///< probability per frame
   double bad_to_good_ = 1.0;
   double sure_m_ = 0.0;  ///< in clear sight a frame is strong enough up to here, whatever is drawn
+  mutable Kept<Link> links_{1024};
   mutable Stations stations_;
   mutable Shadowing shadowing_;
 };

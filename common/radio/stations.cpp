@@ -53,7 +53,10 @@ Stations::Known& Stations::known_at(std::uint64_t station, Step step) {
              keep_probability_) {
     --number;
   }
-  if (number != of.reservation.number) of.subframes.clear();
+  if (number != of.reservation.number) {
+    of.subframes.clear();
+    of.first_wait = 0.0;
+  }
   of.reservation = {.number = number, .from = begin - shift, .to = end - shift};
   return of;
 }
@@ -77,6 +80,20 @@ std::uint8_t Stations::subframe_of(Known& in, std::uint64_t station, std::uint32
 
 std::uint8_t Stations::subframe(std::uint64_t station, Step step, std::uint32_t place) {
   return subframe_of(known_at(station, step), station, place);
+}
+
+DrawKey Stations::wait_key(std::uint64_t station, Step step, std::uint32_t place) {
+  return {.run_seed = seed_,
+          .purpose = Purpose::kRadioReservedLatency,
+          .entity = reservation(station, step).number,
+          .index = station + (static_cast<std::uint64_t>(place) << 56U)};
+}
+
+double Stations::wait(std::uint64_t station, Step step, std::uint32_t place) {
+  if (place > 0) return uniform01(wait_key(station, step, place));
+  Known& of = known_at(station, step);
+  if (of.first_wait == 0.0) of.first_wait = uniform01(wait_key(station, step, 0));
+  return of.first_wait;
 }
 
 bool Stations::deaf(std::uint64_t station, std::uint32_t frames, std::uint8_t subframe, Step step) {

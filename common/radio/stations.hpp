@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/core/keyed_random.hpp"
 #include "common/core/step.hpp"
 #include "common/radio/kept.hpp"
 
@@ -29,6 +30,9 @@ class Stations {
   const Reservation& reservation(std::uint64_t station, Step step);
   /// Which of 100 subframes of 1 ms a station uses for its frame number `place` of a step.
   std::uint8_t subframe(std::uint64_t station, Step step, std::uint32_t place);
+  /// A uniform in (0, 1) for the wait of a reservation's frames, by place, and the key it is drawn with.
+  double wait(std::uint64_t station, Step step, std::uint32_t place);
+  DrawKey wait_key(std::uint64_t station, Step step, std::uint32_t place);
   /// Whether a station hears nothing in the subframe of a frame because it sends in it one of its own `frames`.
   bool deaf(std::uint64_t station, std::uint32_t frames, std::uint8_t subframe, Step step);
 
@@ -38,6 +42,7 @@ class Stations {
     Step offset = 0;        ///< of its grid of reservations
     Reservation reservation{0, 1, 0};
     std::vector<std::uint8_t> subframes;  ///< of the reservation, by place
+    double first_wait = 0.0;              ///< of the reservation's first place; 0: not drawn yet
   };
   Known& known(std::uint64_t station);
   Known& known_at(std::uint64_t station, Step step);
