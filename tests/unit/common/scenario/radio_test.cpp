@@ -199,6 +199,9 @@ constexpr BadRadio kBadRadios[] = {
      "my.textproto:1:29: radio.outages[0].to_s is 5.05 s, must be a multiple of 0.1 s, the length of a step"},
     {"radio { outages { from_s: 1 to_s: 5 area { x_min_m: 3 x_max_m: 2 } } }",
      "my.textproto:1:55: radio.outages[0].area.x_max_m is 2 m, must not be below x_min_m, 3 m"},
+    {"radio {\n  preset: HARSHER\n  # nothing more\n}\n",
+     "my.textproto:2:11: `HARSHER` is no value of preset: signals.preset takes PAPER, PAPER_YELLOW, PROTECTED_LEFT; "
+     "radio.preset takes IDEAL, PC5_MODE4, DSRC_SNS, UU_4G_EDGE, UU_5G_EDGE, HARSH, NR_V2X"},
     {"radio { preset: HARSHER }",
      "my.textproto:1:17: `HARSHER` is no value of preset: signals.preset takes PAPER, PAPER_YELLOW, PROTECTED_LEFT; "
      "radio.preset takes IDEAL, PC5_MODE4, DSRC_SNS, UU_4G_EDGE, UU_5G_EDGE, HARSH, NR_V2X"},
