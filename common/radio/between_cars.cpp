@@ -8,8 +8,10 @@ BetweenCars::BetweenCars(const RadioParameters& radio) : seed_(radio.seed) { use
 
 void BetweenCars::use(const RadioParameters& radio) {
   modem_.reset();
-  tally_.clear();
-  if (!radio.vehicle_to_vehicle) return;
+  if (!radio.vehicle_to_vehicle) {
+    tally_.clear();
+    return;
+  }
   awareness_m_ = radio.awareness_m;
   modem_.emplace(seed_, *radio.vehicle_to_vehicle, Surroundings{radio.keep_probability, {}});
 }

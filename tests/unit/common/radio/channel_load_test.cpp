@@ -178,6 +178,8 @@ TEST(BetweenCars, CountsEachPairWithinReachOnceASecond) {
   between.hear(air, 10, load);
   EXPECT_EQ(between.tally().sent, 2U * (299U + 298U));
   EXPECT_EQ(between.tally().heard, between.tally().sent);
+  between.use(radio);  // a change does not lose what was counted
+  EXPECT_EQ(between.tally().sent, 2U * (299U + 298U));
   between.hear(air, 11, load);
   EXPECT_EQ(between.tally().sent, 0U);
 }
