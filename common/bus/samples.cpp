@@ -55,7 +55,10 @@ void reception_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.direction, sample.direction), move(plain.kind, sample.kind), move(plain.sent, sample.sent);
   move(plain.heard, sample.heard), move(plain.lost_random, sample.lost_random);
   move(plain.lost_burst, sample.lost_burst), move(plain.lost_range, sample.lost_range);
-  move(plain.duplicates, sample.duplicates), move(plain.latency_ms, sample.latency_ms);
+  move(plain.duplicates, sample.duplicates), move(plain.lost_path_loss, sample.lost_path_loss);
+  move(plain.lost_collision, sample.lost_collision), move(plain.lost_half_duplex, sample.lost_half_duplex);
+  move(plain.lost_outage, sample.lost_outage), move(plain.busy_ratio, sample.busy_ratio);
+  move(plain.latency_ms, sample.latency_ms);
 }
 
 template <class Plain, class Sample, class Move>

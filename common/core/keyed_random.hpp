@@ -21,6 +21,16 @@ enum class Purpose : std::uint16_t {
   kRadioLoss = 12,           ///< independent loss
   kRadioBurst = 13,          ///< transition between the states of a bursty link
   kRadioDuplicate = 14,      ///< whether a frame is heard twice
+  // Of a station or a pair of stations; entity and index: common/radio.
+  kRadioReservation = 15,         ///< when a station reserves anew
+  kRadioKeep = 16,                ///< whether it keeps its resource then
+  kRadioSubframe = 17,            ///< which subframe a reservation uses
+  kRadioReservedLatency = 18,     ///< latency of a reservation: uniform, or the first exponential
+  kRadioReservedLatency2nd = 19,  ///< the second exponential
+  kRadioShadowing = 20,           ///< a cell's share of the shadowing
+  kRadioSight = 21,               ///< whether a pair of cars sees each other along a street
+  kRadioBlocker = 22,             ///< what the car between two cars takes away
+  kRadioCollision = 23,           ///< whether a reservation collides at a receiver
   // Roadside sensors: entity = vehicle, index = number of the sensor * 2^32 + step.
   kSensorMiss = 25,     ///< whether a step misses the car
   kSensorAlong = 26,    ///< error of the position along the lane

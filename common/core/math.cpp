@@ -156,4 +156,20 @@ double normal_quantile(double p) {
   return q < 0.0 ? -value : value;
 }
 
+double normal_cdf(double x) {
+  static constexpr double kN[] = {220.206867912376, 221.213596169931,  112.079291497871,   33.912866078383,
+                                  6.37396220353165, 0.700383064443688, 3.52624965998911e-2};
+  static constexpr double kD[] = {440.413735824752, 793.826512519948, 637.333633378831, 296.564248779674,
+                                  86.7807322029461, 16.064177579207,  1.75566716318264, 8.83883476483184e-2};
+  const double size = x < 0.0 ? -x : x;
+  double beyond = 0.0;  // probability of more than `size`
+  if (size < 7.07) {
+    beyond = exp(-0.5 * size * size) * polynomial(kN, 6, size) / polynomial(kD, 7, size);
+  } else if (size < 37.0) {
+    const double fraction = size + 1.0 / (size + 2.0 / (size + 3.0 / (size + 4.0 / (size + 0.65))));
+    beyond = exp(-0.5 * size * size) / (fraction * 2.506628274631000502);
+  }
+  return x < 0.0 ? beyond : 1.0 - beyond;
+}
+
 }  // namespace lukou::math

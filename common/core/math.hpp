@@ -15,6 +15,9 @@ double cos(double angle_rad);
 /// Quantile of the standard normal distribution. Requires 0 < p < 1.
 /// Source: Wichura (1988), algorithm AS 241, PPND16: relative error about 1e-16.
 double normal_quantile(double p);
+/// Distribution function of the standard normal distribution, in [0, 1].
+/// Source: Hart et al. (1968), algorithm 5666, with the rational form up to |x| = 7.07; absolute error below 1e-14.
+double normal_cdf(double x);
 
 inline constexpr double kPi = 3.14159265358979323846;
 

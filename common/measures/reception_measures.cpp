@@ -1,6 +1,7 @@
 #include "common/measures/reception_measures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "common/core/contract.hpp"
@@ -26,6 +27,14 @@ void ReceptionMeasures::add(const ReceptionReport& report) {
     gathered.figures.lost_random += report.lost_random[row];
     gathered.figures.lost_burst += report.lost_burst[row];
     gathered.figures.lost_range += report.lost_range[row];
+    gathered.figures.lost_path_loss += report.lost_path_loss[row];
+    gathered.figures.lost_collision += report.lost_collision[row];
+    gathered.figures.lost_half_duplex += report.lost_half_duplex[row];
+    gathered.figures.lost_outage += report.lost_outage[row];
+    if (!std::isnan(report.busy_ratio[row])) {
+      gathered.busy_sum += report.busy_ratio[row];
+      ++gathered.busy_reports;
+    }
     gathered.figures.duplicates += report.duplicates[row];
     const auto begin = report.latency_ms.begin() + static_cast<std::ptrdiff_t>(next);
     gathered.latency_ms.insert(gathered.latency_ms.end(), begin, begin + report.heard[row]);
@@ -47,6 +56,7 @@ std::vector<ReceptionFigures> ReceptionMeasures::take() {
       figures.latency_p95_ms = percentile(values, 95);
       figures.latency_p99_ms = percentile(values, 99);
     }
+    if (gathered.busy_reports > 0) figures.busy_ratio = gathered.busy_sum / gathered.busy_reports;
     taken.push_back(figures);
     gathered = {};
   }

@@ -20,11 +20,16 @@ struct ReceptionFigures {
   std::uint64_t lost_random = 0;
   std::uint64_t lost_burst = 0;
   std::uint64_t lost_range = 0;
+  std::uint64_t lost_path_loss = 0;
+  std::uint64_t lost_collision = 0;
+  std::uint64_t lost_half_duplex = 0;
+  std::uint64_t lost_outage = 0;
   std::uint64_t duplicates = 0;
   /// Of what was heard; empty if nothing was. A percentile is the smallest value that no fewer than its share reach.
   std::optional<double> latency_mean_ms;
   std::optional<double> latency_p95_ms;
   std::optional<double> latency_p99_ms;
+  std::optional<double> busy_ratio;  ///< mean of what the reports said; empty if none said anything
 };
 
 /// Gathers reports of the radio until they are taken.
@@ -41,6 +46,8 @@ class ReceptionMeasures {
   struct Gathered {
     ReceptionFigures figures;
     std::vector<double> latency_ms;
+    double busy_sum = 0.0;
+    std::uint32_t busy_reports = 0;
   };
   std::map<std::pair<std::uint8_t, std::uint8_t>, Gathered> gathered_;  ///< by direction and kind
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "common/messages/frames.hpp"
@@ -9,7 +10,7 @@
 namespace lukou {
 
 /// Which way a frame goes; the values stand on the bus.
-enum class Direction : std::uint8_t { kUplink = 0, kDownlink = 1 };
+enum class Direction : std::uint8_t { kUplink = 0, kDownlink = 1, kVehicleToVehicle = 2 };
 
 /// Counts what became of frames of one kind in one direction. A frame counts once per receiver.
 struct ReceptionTally {
@@ -18,7 +19,13 @@ struct ReceptionTally {
   std::uint32_t lost_random = 0;
   std::uint32_t lost_burst = 0;
   std::uint32_t lost_range = 0;
-  std::uint32_t duplicates = 0;    ///< delivered a second time
+  std::uint32_t lost_path_loss = 0;
+  std::uint32_t lost_collision = 0;
+  std::uint32_t lost_half_duplex = 0;
+  std::uint32_t lost_outage = 0;
+  std::uint32_t duplicates = 0;  ///< delivered a second time
+  /// Share of the channel in use where the receivers stand, [0, 1]; not a number: not counted.
+  double busy_ratio = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> latency_ms;  ///< of each that was heard, in order
 
   void clear();
@@ -37,6 +44,11 @@ struct ReceptionReport {
   std::vector<std::uint32_t> lost_burst;
   std::vector<std::uint32_t> lost_range;
   std::vector<std::uint32_t> duplicates;
+  std::vector<std::uint32_t> lost_path_loss;
+  std::vector<std::uint32_t> lost_collision;
+  std::vector<std::uint32_t> lost_half_duplex;
+  std::vector<std::uint32_t> lost_outage;
+  std::vector<double> busy_ratio;  ///< [0, 1]; not a number: not counted
   std::vector<double> latency_ms;  ///< `heard` values of the first row, then of the second, ...
 
   [[nodiscard]] std::size_t size() const { return direction.size(); }

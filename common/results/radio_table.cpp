@@ -5,8 +5,8 @@
 namespace lukou::results {
 
 std::string radio_columns() {
-  return "step,time_s,direction,kind,sent,heard,lost_random,lost_burst,lost_range,duplicates,latency_mean_ms,"
-         "latency_p95_ms,latency_p99_ms";
+  return "step,time_s,direction,kind,sent,heard,lost_random,lost_burst,lost_range,lost_path_loss,lost_collision,"
+         "lost_half_duplex,lost_outage,duplicates,latency_mean_ms,latency_p95_ms,latency_p99_ms,busy_ratio";
 }
 
 Expected<Done> RadioTable::add(Step step, const RadioRow& row) {
@@ -20,11 +20,12 @@ Expected<Done> RadioTable::add(Step step, const RadioRow& row) {
   table_->name(row.direction);
   table_->name(row.kind);
   for (const std::uint64_t count :
-       {row.sent, row.heard, row.lost_random, row.lost_burst, row.lost_range, row.duplicates}) {
+       {row.sent, row.heard, row.lost_random, row.lost_burst, row.lost_range, row.lost_path_loss, row.lost_collision,
+        row.lost_half_duplex, row.lost_outage, row.duplicates}) {
     table_->count(count);
   }
-  for (const double latency_ms : {row.latency_mean_ms, row.latency_p95_ms, row.latency_p99_ms}) {
-    table_->real(latency_ms);
+  for (const double value : {row.latency_mean_ms, row.latency_p95_ms, row.latency_p99_ms, row.busy_ratio}) {
+    table_->real(value);
   }
   table_->end_row();
   return Done{};

@@ -17,17 +17,22 @@ inline constexpr const char* kRadioTable = "radio.csv";
 
 /// What the radio did in a second, for one direction and kind of frame; see docs/radio.md.
 struct RadioRow {
-  std::string_view direction;  ///< "uplink" or "downlink"
+  std::string_view direction;  ///< "uplink", "downlink" or "v2v"
   std::string_view kind;       ///< "bsm" or "rsc"
   std::uint64_t sent = 0;
   std::uint64_t heard = 0;
   std::uint64_t lost_random = 0;
   std::uint64_t lost_burst = 0;
   std::uint64_t lost_range = 0;
+  std::uint64_t lost_path_loss = 0;
+  std::uint64_t lost_collision = 0;
+  std::uint64_t lost_half_duplex = 0;
+  std::uint64_t lost_outage = 0;
   std::uint64_t duplicates = 0;
   double latency_mean_ms = 0.0;  ///< not a number: nothing was heard, as the next two
   double latency_p95_ms = 0.0;
   double latency_p99_ms = 0.0;
+  double busy_ratio = 0.0;  ///< not a number: the load is not counted
 };
 
 /// The header line.

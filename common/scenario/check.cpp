@@ -48,7 +48,8 @@ class Checker {
         }
       } else if (!field->is_repeated() && has(message, field)) {
         value_of(message, field, extended(path, field));
-      } else if (!field->is_repeated() && !has_fallback(field) && !is_demand_arm(field) && !is_latency_arm(field)) {
+      } else if (!field->is_repeated() && !has_fallback(field) && !is_demand_arm(field) && !is_latency_arm(field) &&
+                 !may_be_absent(field)) {
         findings_.push_back({path,
                              {},
                              text(extended(path, field)) + " is missing; it takes " +
@@ -203,9 +204,42 @@ class Checker {
     const Radio& radio = scenario_.radio();
     if (radio.has_uplink()) link(radio.uplink(), path_to({"radio", "uplink"}));
     if (radio.has_downlink()) link(radio.downlink(), path_to({"radio", "downlink"}));
+    if (radio.has_vehicle_to_vehicle()) link(radio.vehicle_to_vehicle(), path_to({"radio", "vehicle_to_vehicle"}));
+    if (radio.has_load() && !radio.vehicle_to_vehicle().has_path_loss() && !radio.uplink().has_path_loss()) {
+      add(path_to({"radio", "load"}),
+          "counts what stations hear of each other: give vehicle_to_vehicle or uplink a path_loss");
+    }
+    for (int i = 0; i < radio.outages_size(); ++i) {
+      outage(radio.outages(i), extended(path_to({"radio"}), "outages", i));
+    }
+  }
+
+  void outage(const Outage& said, const FieldPath& path) {
+    if (said.to_s() <= said.from_s()) {
+      add(extended(path, "to_s"),
+          "is " + number_text(said.to_s()) + " s, must be after from_s, " + number_text(said.from_s()) + " s",
+          {extended(path, "from_s")});
+    }
+    if (said.has_rsu() && static_cast<int>(said.rsu()) >= scenario_.rsus_size()) {
+      add(extended(path, "rsu"), "is " + std::to_string(said.rsu()) + ", must be below " +
+                                     std::to_string(scenario_.rsus_size()) + ", the number of RSUs");
+    }
+    const Area& area = said.area();
+    const FieldPath area_path = extended(path, "area");
+    if (area.x_max_m() < area.x_min_m()) below(area_path, "x_max_m", area.x_max_m(), "x_min_m", area.x_min_m());
+    if (area.y_max_m() < area.y_min_m()) below(area_path, "y_max_m", area.y_max_m(), "y_min_m", area.y_min_m());
+  }
+
+  void below(const FieldPath& path, const char* upper, double upper_m, const char* lower, double lower_m) {
+    add(extended(path, upper),
+        "is " + number_text(upper_m) + " m, must not be below " + lower + ", " + number_text(lower_m) + " m",
+        {extended(path, lower)});
   }
 
   void link(const Link& said, const FieldPath& path) {
+    if (said.collisions() && !scenario_.radio().has_load()) {
+      add(extended(path, "collisions"), "is true, but nothing counts the load: give radio.load={}");
+    }
     const FieldPath latency = extended(path, "latency");
     one_latency(said.latency(), latency);
     const UniformLatency& uniform = said.latency().uniform();
@@ -223,8 +257,8 @@ class Checker {
     if (burst.rate() <= 0.0 || burst.rate() >= 1.0 || burst.mean_length() < 1.0) return;
     if (burst.mean_length() * (1.0 - burst.rate()) > 1.0 - 1e-9) return;
     add(extended(burst_path, "mean_length"),
-        "is " + number_text(burst.mean_length()) + " frames, must be at least 1 / (1 - rate), " +
-            number_text(1.0 / (1.0 - burst.rate())) + " frames: the length that independent losses have",
+        "is " + number_text(burst.mean_length()) + " steps, must be at least 1 / (1 - rate), " +
+            number_text(1.0 / (1.0 - burst.rate())) + " steps: the length that independent losses have",
         {extended(burst_path, "rate")});
   }
 

@@ -46,13 +46,19 @@ std::string enums_of_field(const std::string& field_name) {
   return joined(takes, "; ");
 }
 
-/// The parser stands behind a word when it objects to it: the column where the word begins, if it stands there.
-int column_of_word(std::string_view text, int line, int column, const std::string& word) {
+/// The parser stands behind a word when it objects to it, at the next one, which may be lines further on: moves the
+/// issue to where the word begins.
+void move_to_word(ParseIssue& issue, std::string_view text, const std::string& word) {
   std::size_t begin = 0;
-  for (int i = 1; i < line && begin != std::string_view::npos; ++i) begin = text.find('\n', begin) + 1;
-  const std::string_view here = text.substr(std::min(begin, text.size()), static_cast<std::size_t>(column) - 1);
-  const std::size_t at = here.rfind(word);
-  return at == std::string_view::npos ? column : static_cast<int>(at) + 1;
+  for (int i = 1; i < issue.line && begin != std::string_view::npos; ++i) begin = text.find('\n', begin) + 1;
+  const std::size_t here = std::min(begin + static_cast<std::size_t>(issue.column) - 1, text.size());
+  std::size_t at = here;
+  if (text.substr(here, word.size()) != word) at = text.substr(0, here).rfind(word);
+  if (at == std::string_view::npos) return;
+  const std::string_view before = text.substr(0, at);
+  issue.line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const std::size_t line_begin = before.rfind('\n');
+  issue.column = static_cast<int>(line_begin == std::string_view::npos ? at + 1 : at - line_begin);
 }
 
 /// Puts a message of the parser into our words; one that is not known stays as it is.
@@ -96,7 +102,7 @@ class Collector final : public google::protobuf::io::ErrorCollector {
     const std::vector<std::string> words = quoted(message);
     if (line >= 0 && is_about_a_word(message) && !words.empty()) {
       const bool enumeration = message.rfind("Unknown enumeration", 0) == 0;
-      issue.column = column_of_word(text_, issue.line, issue.column, enumeration ? words.front() : words.back());
+      move_to_word(issue, text_, enumeration ? words.front() : words.back());
     }
     issues.push_back(issue);
   }

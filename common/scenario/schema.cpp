@@ -52,9 +52,13 @@ bool has_fallback(const FieldDescriptor* field) { return !rule_of(field).fallbac
 
 bool on_step_grid(const FieldDescriptor* field) {
   static const std::vector<const FieldDescriptor*> kFields = {
-      Run::descriptor()->FindFieldByName("duration_s"),         Run::descriptor()->FindFieldByName("warmup_s"),
-      SignalPlan::descriptor()->FindFieldByName("cycle_s"),     SignalPlan::descriptor()->FindFieldByName("offset_s"),
+      Run::descriptor()->FindFieldByName("duration_s"),
+      Run::descriptor()->FindFieldByName("warmup_s"),
+      SignalPlan::descriptor()->FindFieldByName("cycle_s"),
+      SignalPlan::descriptor()->FindFieldByName("offset_s"),
       TimedAspect::descriptor()->FindFieldByName("duration_s"),
+      Outage::descriptor()->FindFieldByName("from_s"),
+      Outage::descriptor()->FindFieldByName("to_s"),
   };
   return std::find(kFields.begin(), kFields.end(), field) != kFields.end();
 }

@@ -88,7 +88,10 @@ std::optional<Error> arm_in_the_way(const Message& message, const PathSegment& s
   const Descriptor* type = message.GetDescriptor();
   for (int i = 0; i < type->field_count(); ++i) {
     const FieldDescriptor* other = type->field(i);
-    if (other == segment.field || (of_demand && !is_demand_arm(other)) || !has(message, other)) continue;
+    if (other == segment.field || (of_demand ? !is_demand_arm(other) : !is_latency_arm(other)) ||
+        !has(message, other)) {
+      continue;
+    }
     return Error{"",
                  text(so_far) + " already has " + other->name() +
                      (of_demand ? "; a demand is one of flow_veh_per_h, flow_series and arrivals_csv (to replace it: "

@@ -15,7 +15,17 @@ namespace {
 
 constexpr std::size_t kFlushBytes = 256U << 10U;
 
-std::string_view name_of(Direction direction) { return direction == Direction::kUplink ? "uplink" : "downlink"; }
+std::string_view name_of(Direction direction) {
+  switch (direction) {
+    case Direction::kUplink:
+      return "uplink";
+    case Direction::kDownlink:
+      return "downlink";
+    case Direction::kVehicleToVehicle:
+      return "v2v";
+  }
+  return "unknown";
+}
 
 std::string_view name_of(FrameKind kind) {
   switch (kind) {
@@ -42,10 +52,15 @@ results::RadioRow row_of(const ReceptionFigures& figures) {
           .lost_random = figures.lost_random,
           .lost_burst = figures.lost_burst,
           .lost_range = figures.lost_range,
+          .lost_path_loss = figures.lost_path_loss,
+          .lost_collision = figures.lost_collision,
+          .lost_half_duplex = figures.lost_half_duplex,
+          .lost_outage = figures.lost_outage,
           .duplicates = figures.duplicates,
           .latency_mean_ms = figures.latency_mean_ms.value_or(kUnknown),
           .latency_p95_ms = figures.latency_p95_ms.value_or(kUnknown),
-          .latency_p99_ms = figures.latency_p99_ms.value_or(kUnknown)};
+          .latency_p99_ms = figures.latency_p99_ms.value_or(kUnknown),
+          .busy_ratio = figures.busy_ratio.value_or(kUnknown)};
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ std::optional<CarReport> report_of(const BasicSafety& message, Step now) {
 RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
     : config_(std::move(config)),
       algorithm_(std::move(algorithm)),
-      modem_(config_.radio.seed, config_.radio.uplink),
+      modem_(config_.radio.seed, config_.radio.uplink, uplink_surroundings(config_.radio)),
+      load_(config_.radio.load, load_reach_m(config_.road.approach_m, config_.road.exit_m)),
       cars_(config_.road),
       sensed_(config_.road),
       map_(map_of(config_)) {
@@ -99,11 +100,15 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   if (k % kMapEvery == 0) say_map(k, out.frames);
   say_guidance(k, out);
   say_sensed(out.frames);
+  load_.add_roadside(out.frames, k);
+  frames_sent_ = static_cast<std::uint32_t>(out.frames.size());
+  next_ = k + 1;
 }
 
 void RsuNode::change(const RsuConfig& config) {
   config_.radio = config.radio;
-  modem_.use(config.radio.uplink);
+  modem_.use(config.radio.uplink, uplink_surroundings(config.radio));
+  load_.use(config.radio.load, next_);
   config_.sensors = config.sensors;
 }
 
@@ -114,6 +119,8 @@ void RsuNode::hear(Step k, const AirBatch& air, RoadsideBatch& out) {
     }
   } else {
     tally_.clear();
+    load_.add_air(air.frames, k);
+    if (load_.counted()) tally_.busy_ratio = load_.busy_ratio_at_mast();
     receive(air);
     for (const auto& item : inbox_.take(k)) {
       tally_.count_delivered(item.arrival.latency_ms, item.duplicate);
@@ -128,11 +135,20 @@ void RsuNode::receive(const AirBatch& air) {
   const Frames& frames = air.frames;
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     const PlanePoint antenna{frames.antenna_x_m[frame], frames.antenna_y_m[frame]};
-    const Hop hop{.sender = frames.sender[frame],
-                  .receiver = config_.station_id,
-                  .sequence = frames.sequence[frame],
-                  .sent = air.step,
-                  .distance_m = distance_m(antenna, config_.antenna)};
+    Hop hop{.sender = frames.sender[frame],
+            .receiver = config_.station_id,
+            .sequence = frames.sequence[frame],
+            .kind = frames.kind[frame],
+            .sent = air.step,
+            .distance_m = distance_m(antenna, config_.antenna),
+            .car = antenna,
+            .other = config_.antenna,
+            .rsu = config_.rsu,
+            .receiver_frames = frames_sent_};
+    if (modem_.asks_for_speed()) hop.car_speed_mps = speeds_.of(hop.sender, antenna, air.step);
+    if (modem_.asks_for_collisions()) {
+      hop.collision_probability = load_.collision_to_mast(antenna, load_.width(frames.wire_bytes[frame]));
+    }
     const Reception reception = modem_.receive(hop);
     tally_.count_sent(reception);
     if (reception.lost) continue;

@@ -11,8 +11,10 @@
 #include "common/messages/rsc.hpp"
 #include "common/messages/rsm.hpp"
 #include "common/messages/spat.hpp"
+#include "common/radio/channel_load.hpp"
 #include "common/radio/inbox.hpp"
 #include "common/radio/modem.hpp"
+#include "common/radio/station_speed.hpp"
 #include "services/rsu/model/heard_cars.hpp"
 #include "services/rsu/model/sensed_cars.hpp"
 #include "services/rsu/model/signal_view.hpp"
@@ -61,8 +63,12 @@ class RsuNode {
   RsuConfig config_;
   std::unique_ptr<RsuAlgorithm> algorithm_;
   Modem modem_;
-  Inbox<Underway> inbox_;  ///< stays empty under the ideal radio
-  ReceptionTally tally_;   ///< of this step
+  ChannelLoad load_;
+  StationSpeed speeds_;            ///< of the cars, if the latency asks for them
+  std::uint32_t frames_sent_ = 0;  ///< in the step before
+  Step next_ = 0;                  ///< the step after the last one
+  Inbox<Underway> inbox_;          ///< stays empty under the ideal radio
+  ReceptionTally tally_;           ///< of this step
   HeardCars cars_;
   SensedCars sensed_;
   SignalView signals_;

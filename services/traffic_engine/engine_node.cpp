@@ -24,6 +24,14 @@ AdviceFate fate_of(LossCause cause) {
       return AdviceFate::kLostRandom;
     case LossCause::kBurst:
       return AdviceFate::kLostBurst;
+    case LossCause::kPathLoss:
+      return AdviceFate::kLostPathLoss;
+    case LossCause::kCollision:
+      return AdviceFate::kLostCollision;
+    case LossCause::kHalfDuplex:
+      return AdviceFate::kLostHalfDuplex;
+    case LossCause::kOutage:
+      return AdviceFate::kLostOutage;
     case LossCause::kRange:
       break;
   }
@@ -42,7 +50,9 @@ bool same_flows(const traffic::DemandParameters& a, const traffic::DemandParamet
 EngineNode::EngineNode(const EngineConfig& config)
     : config_(config),
       engine_(config.traffic),
-      modem_(config.radio.seed, config.radio.downlink),
+      modem_(config.radio.seed, config.radio.downlink, downlink_surroundings(config.radio)),
+      load_(config.radio.load, load_reach_m(config.traffic.road.approach_m, config.traffic.road.exit_m)),
+      between_cars_(config.radio),
       unit_errors_(config.traffic.seed, config.unit_errors),
       sensors_(config.traffic.seed, config.sensors) {}
 
@@ -59,7 +69,9 @@ void EngineNode::change(const EngineConfig& config) {
   engine_.change_equipped_ratio(config.traffic.equipped_ratio);
   engine_.change_units(config.traffic.unit, config.traffic.compliance);
   config_.radio = config.radio;
-  modem_.use(config.radio.downlink);
+  modem_.use(config.radio.downlink, downlink_surroundings(config.radio));
+  load_.use(config.radio.load, next_);
+  between_cars_.use(config.radio);
   unit_errors_.use(config.unit_errors);
   sensors_.use(config.sensors);
 }
@@ -76,8 +88,11 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   advice_.clear();
   fates_.clear();
   tally_.clear();
+  if (load_.counted()) tally_.busy_ratio = load_.busy_ratio_of_cars();
   for (const RoadsideBatch* batch : roadside) {
-    if (batch != nullptr) hear(*batch);
+    if (batch == nullptr) continue;
+    hear(*batch);
+    load_.add_roadside(batch->frames, batch->step);
   }
   if (config_.radio.modelled) deliver(k - 1);
   engine_.step(k, k > 0 ? promise_.at(k - 1) : Heads{}, advice_);
@@ -94,6 +109,9 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   air.frames.clear();
   say_safety_messages(engine_, unit_errors_, k, air.frames);
   report_sensed(sensors_.look(k, engine_), air.sensed);
+  load_.add_air(air.frames, k);
+  between_cars_.hear(air.frames, k, load_);
+  next_ = k + 1;
   return Done{};
 }
 
@@ -173,11 +191,23 @@ Hop EngineNode::hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& 
   const traffic::EngineParameters& parameters = engine_.parameters();
   const Pose pose = pose_on_path(parameters.road, lane, car.motion.position_m);
   const PlanePoint antenna = centre_of_car({pose.x_m, pose.y_m}, pose.heading_rad, parameters.vehicles.length_m);
-  return {.sender = batch.frames.sender[frame],
+  const PlanePoint mast{batch.frames.antenna_x_m[frame], batch.frames.antenna_y_m[frame]};
+  Hop hop{.sender = batch.frames.sender[frame],
           .receiver = car.temporary_id,
           .sequence = batch.frames.sequence[frame],
+          .kind = batch.frames.kind[frame],
           .sent = batch.step,
-          .distance_m = distance_m({batch.frames.antenna_x_m[frame], batch.frames.antenna_y_m[frame]}, antenna)};
+          .distance_m = distance_m(mast, antenna),
+          .car = antenna,
+          .other = mast,
+          .rsu = batch.rsu,
+          .epoch = batch.epoch,
+          .place = static_cast<std::uint32_t>(frame),
+          .car_speed_mps = car.motion.speed_mps};
+  if (modem_.asks_for_collisions()) {
+    hop.collision_probability = load_.collision_from_mast(antenna, load_.width(batch.frames.wire_bytes[frame]));
+  }
+  return hop;
 }
 
 void EngineNode::deliver(Step now) {
@@ -211,6 +241,9 @@ Expected<Done> EngineNode::report_reception(std::span<const RoadsideBatch* const
                                             TrafficBatch& traffic) const {
   if (!config_.radio.modelled) return Done{};
   traffic.reception.add(Direction::kDownlink, FrameKind::kRsc, tally_);
+  if (between_cars_.drawn()) {
+    traffic.reception.add(Direction::kVehicleToVehicle, FrameKind::kBsm, between_cars_.tally());
+  }
   for (const RoadsideBatch* batch : roadside) {
     if (batch == nullptr) continue;
     if (!batch->reception.well_formed()) {

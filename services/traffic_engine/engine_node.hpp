@@ -6,6 +6,8 @@
 #include "common/bus/batches.hpp"
 #include "common/core/expected.hpp"
 #include "common/intersection/signal_promise.hpp"
+#include "common/radio/between_cars.hpp"
+#include "common/radio/channel_load.hpp"
 #include "common/radio/inbox.hpp"
 #include "common/radio/modem.hpp"
 #include "services/traffic_engine/engine_config.hpp"
@@ -59,9 +61,12 @@ class EngineNode {
   EngineConfig config_;  ///< as it is in force
   traffic::Engine engine_;
   SignalPromise promise_;
-  Modem modem_;  ///< of the units of all cars
+  Modem modem_;       ///< of the units of all cars
+  ChannelLoad load_;  ///< what the channel carries
+  BetweenCars between_cars_;
   traffic::UnitErrors unit_errors_;
   traffic::RoadsideSensors sensors_;
+  Step next_ = 0;                        ///< the step after the last one
   Inbox<traffic::Advice> inbox_;         ///< stays empty under the ideal radio
   Inbox<Hearing> spats_;                 ///< likewise
   ReceptionTally tally_;                 ///< of this step

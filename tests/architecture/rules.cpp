@@ -13,7 +13,7 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"core", {}},
     {"intersection", {"core"}},
     {"messages", {"core", "intersection"}},
-    {"radio", {"core", "messages"}},
+    {"radio", {"core", "intersection", "messages"}},
     {"scenario", {"core", "intersection", "radio"}},
     {"lockstep", {"core"}},
     {"bus", {"core", "lockstep", "messages", "radio"}},

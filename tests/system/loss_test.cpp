@@ -80,7 +80,8 @@ TEST(Loss, OfAStoppedProcessIsNoticedToo) {
 TEST(Loss, OfAnRsuIsSurvivedWhereTheScenarioSaysSoAndTheRecordReplaysIt) {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
-  Program launcher = long_run(run, folder / "r", {"--set", "run.on_rsu_loss=CONTINUE"});
+  Program launcher =
+      long_run(run, folder / "r", {"--set", "run.on_rsu_loss=CONTINUE", "--set", "radio.preset=PC5_MODE4"});
   ASSERT_TRUE(wait_for_step(run, 400));
   const auto processes = processes_of(run);
   const pid_t first = processes.at("lukou-rsu");

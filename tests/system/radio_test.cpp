@@ -20,6 +20,21 @@ void run(const std::filesystem::path& out, const std::vector<std::string>& more)
   ASSERT_EQ(finished.code, 0) << finished.err;
 }
 
+/// Columns of radio.csv, counted from `sent`.
+enum Column : std::size_t {
+  kSent = 0,
+  kHeard,
+  kRandom,
+  kBurst,
+  kRange,
+  kPathLoss,
+  kCollision,
+  kHalfDuplex,
+  kOutage,
+  kDuplicates,
+  kColumns
+};
+
 /// Sums of the columns sent ... duplicates of radio.csv over the whole run, by direction.
 std::map<std::string, std::vector<long>> totals(const std::filesystem::path& table) {
   std::map<std::string, std::vector<long>> sums;
@@ -31,7 +46,7 @@ std::map<std::string, std::vector<long>> totals(const std::filesystem::path& tab
     std::istringstream row(line);
     for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
     auto& sum = sums[cells.at(2)];
-    sum.resize(6);
+    sum.resize(kColumns);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::stol(cells.at(4 + i));
   }
   return sums;
@@ -46,9 +61,9 @@ TEST(Radio, WithoutLatencyAndLossGivesTheTablesOfTheIdealOne) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "ideal/radio.csv"));
   const auto sums = totals(folder / "zero/radio.csv");
-  EXPECT_EQ(sums.at("uplink")[0], sums.at("uplink")[1]);
-  EXPECT_EQ(sums.at("downlink")[0], sums.at("downlink")[1]);
-  EXPECT_GT(sums.at("downlink")[0], 10'000);
+  EXPECT_EQ(sums.at("uplink")[kSent], sums.at("uplink")[kHeard]);
+  EXPECT_EQ(sums.at("downlink")[kSent], sums.at("downlink")[kHeard]);
+  EXPECT_GT(sums.at("downlink")[kSent], 10'000);
 }
 
 TEST(Radio, ThatLosesAllAdviceGivesTheTrafficWithoutAdvice) {
@@ -58,10 +73,14 @@ TEST(Radio, ThatLosesAllAdviceGivesTheTrafficWithoutAdvice) {
   for (const std::string& table : kTables) {
     EXPECT_EQ(content(folder / "none" / table), content(folder / "deaf" / table)) << table;
   }
+  run(folder / "deaf4", {"--set", "radio.preset=PC5_MODE4", "--set", "radio.downlink.loss.rate=1"});
+  for (const std::string& table : kTables) {
+    EXPECT_EQ(content(folder / "none" / table), content(folder / "deaf4" / table)) << table;
+  }
   const auto sums = totals(folder / "deaf/radio.csv");
-  EXPECT_EQ(sums.at("downlink")[1], 0);
-  EXPECT_EQ(sums.at("downlink")[0], sums.at("downlink")[2]);
-  EXPECT_GT(sums.at("downlink")[0], 10'000);
+  EXPECT_EQ(sums.at("downlink")[kHeard], 0);
+  EXPECT_EQ(sums.at("downlink")[kSent], sums.at("downlink")[kRandom]);
+  EXPECT_GT(sums.at("downlink")[kSent], 10'000);
 }
 
 TEST(Radio, ReportsTheRatesThatItWasGiven) {
@@ -72,14 +91,14 @@ TEST(Radio, ReportsTheRatesThatItWasGiven) {
   // cars at a time the share of correlated losses varies by less than 0.02.
   for (const auto& [direction, random] : {std::pair("uplink", 0.0), std::pair("downlink", 0.3)}) {
     const std::vector<long>& sum = sums.at(direction);
-    const auto sent = static_cast<double>(sum[0]);
+    const auto sent = static_cast<double>(sum[kSent]);
     EXPECT_GT(sent, 30'000.0) << direction;
-    EXPECT_NEAR(static_cast<double>(sum[3]) / sent, 0.2, 0.02) << direction;
-    EXPECT_NEAR(static_cast<double>(sum[2]) / sent, 0.8 * random, 0.02) << direction;
-    EXPECT_EQ(sum[4], 0) << direction;
-    EXPECT_NEAR(static_cast<double>(sum[5]) / static_cast<double>(sum[1]), 0.01, 0.003) << direction;
+    EXPECT_NEAR(static_cast<double>(sum[kBurst]) / sent, 0.2, 0.02) << direction;
+    EXPECT_NEAR(static_cast<double>(sum[kRandom]) / sent, 0.8 * random, 0.02) << direction;
+    EXPECT_EQ(sum[kRange], 0) << direction;
+    EXPECT_NEAR(static_cast<double>(sum[kDuplicates]) / static_cast<double>(sum[kHeard]), 0.01, 0.003) << direction;
     // What was neither lost nor heard is still under way when the run ends: half a second of frames at most.
-    const long under_way = sum[0] - sum[1] - sum[2] - sum[3] - sum[4];
+    const long under_way = sum[kSent] - sum[kHeard] - sum[kRandom] - sum[kBurst] - sum[kRange];
     EXPECT_GE(under_way, 0) << direction;
     EXPECT_LT(under_way, 600) << direction;
   }
@@ -87,13 +106,48 @@ TEST(Radio, ReportsTheRatesThatItWasGiven) {
 
 TEST(Radio, GivesTheSameBytesAsProcessesAndInOneProcess) {
   const TemporaryFolder folder;
-  const std::vector<std::string> harsh = {"--set", "radio.preset=HARSH"};
-  run(folder / "alone", harsh);
-  std::vector<std::string> arguments = {"run", "paper", "--duration", "200", "--quiet", "--out", folder / "bus"};
-  arguments.insert(arguments.end(), harsh.begin(), harsh.end());
-  ASSERT_EQ(lukou(arguments).code, 0);
-  EXPECT_EQ(differing_files(folder / "bus", folder / "alone"), std::vector<std::string>{});
-  EXPECT_EQ(lukou({"inspect", folder / "bus"}).code, 0);
+  for (const std::string preset : {"HARSH", "PC5_MODE4"}) {
+    const std::vector<std::string> set = {"--set", "radio.preset=" + preset, "--set", "radio.vehicle_to_vehicle={}"};
+    run(folder / (preset + "-alone"), set);
+    std::vector<std::string> arguments = {
+        "run", "paper", "--duration", "200", "--quiet", "--out", folder / (preset + "-bus")};
+    arguments.insert(arguments.end(), set.begin(), set.end());
+    ASSERT_EQ(lukou(arguments).code, 0);
+    EXPECT_EQ(differing_files(folder / (preset + "-bus"), folder / (preset + "-alone")), std::vector<std::string>{});
+    EXPECT_EQ(lukou({"inspect", folder / (preset + "-bus")}).code, 0);
+  }
+}
+
+TEST(Radio, OfMode4LosesByItsMechanismsAndCountsTheLoad) {
+  const TemporaryFolder folder;
+  run(folder / "r", {"--set", "radio.preset=PC5_MODE4", "--set", "radio.outages[0]={from_s: 100 to_s: 110}"});
+  const auto sums = totals(folder / "r/radio.csv");
+  for (const char* direction : {"uplink", "downlink"}) {
+    const std::vector<long>& sum = sums.at(direction);
+    EXPECT_GT(sum[kSent], 30'000) << direction;
+    EXPECT_GT(sum[kCollision], 0) << direction;
+    EXPECT_GT(sum[kHalfDuplex], 0) << direction;
+    EXPECT_EQ(sum[kRandom] + sum[kBurst] + sum[kRange] + sum[kPathLoss] + sum[kDuplicates], 0) << direction;
+    long lost = 0;
+    for (std::size_t column = kRandom; column <= kOutage; ++column) lost += sum[column];
+    EXPECT_GE(sum[kSent] - sum[kHeard] - lost, 0) << direction;
+    EXPECT_LT(sum[kSent] - sum[kHeard] - lost, 200) << direction;  // under way: 100 ms of frames at most
+  }
+  // All that cars sent in 10 of 200 s, while the roads were filling in the first 60: between 1 and 2 times 5 %. The RSU
+  // hears nobody, so it soon advises nobody.
+  EXPECT_GT(sums.at("uplink")[kOutage], sums.at("uplink")[kSent] / 20);
+  EXPECT_LT(sums.at("uplink")[kOutage], sums.at("uplink")[kSent] / 10);
+  EXPECT_GT(sums.at("downlink")[kOutage], 0);
+  // One car's frame in each of the 100 subframes, and some four frames of the RSU in each step: 1 % and some 4 %.
+  const auto share = [&](const char* direction, Column column) {
+    return static_cast<double>(sums.at(direction)[column]) / static_cast<double>(sums.at(direction)[kSent]);
+  };
+  EXPECT_NEAR(share("downlink", kHalfDuplex), 0.01, 0.005);
+  EXPECT_GT(share("uplink", kHalfDuplex), 0.015);
+  EXPECT_LT(share("uplink", kHalfDuplex), 0.1);
+  const std::string summary = content(folder / "r/summary.json");
+  EXPECT_NE(summary.find("\"half_duplex\": "), std::string::npos);
+  EXPECT_NE(summary.find("\"outage\": "), std::string::npos);
 }
 
 TEST(Radio, ThatChangesLiveReplaysByteForByte) {
@@ -106,6 +160,13 @@ TEST(Radio, ThatChangesLiveReplaysByteForByte) {
   EXPECT_EQ(lukou({"ctl", id, "pause"}).code, 0);
   EXPECT_EQ(lukou({"ctl", id, "step", "50"}).code, 0);
   EXPECT_EQ(lukou({"ctl", id, "set", "radio.uplink.latency={gamma {min_ms: 50 mean_ms: 150}}"}).code, 0);
+  EXPECT_EQ(lukou({"ctl", id, "set", "radio.uplink.path_loss={law: WINNER_B1}"}).code, 0);
+  EXPECT_EQ(lukou({"ctl", id, "set", "radio.load={sub_channels: 2}"}).code, 0);
+  EXPECT_EQ(lukou({"ctl", id, "set", "radio.uplink.collisions=true"}).code, 0);
+  EXPECT_EQ(lukou({"ctl", id, "set", "radio.downlink.collisions=true"}).code, 0);
+  EXPECT_EQ(lukou({"ctl", id, "set", "radio.downlink.half_duplex=true"}).code, 0);
+  EXPECT_EQ(lukou({"ctl", id, "set", "radio.reservation={keep_probability: 0.5}"}).code, 0);
+  EXPECT_EQ(lukou({"ctl", id, "set", "radio.outages[0]={from_s: 100 to_s: 120 approach: WEST}"}).code, 0);
   EXPECT_EQ(lukou({"ctl", id, "set", "radio.uplink.loss.rate=7"}).code, 2);
   EXPECT_EQ(lukou({"ctl", id, "pace", "max"}).code, 0);
   EXPECT_EQ(lukou({"ctl", id, "resume"}).code, 0);
@@ -117,8 +178,12 @@ TEST(Radio, ThatChangesLiveReplaysByteForByte) {
     EXPECT_EQ(differing_files(folder / "r", folder / mode), std::vector<std::string>{}) << mode;
   }
   const auto sums = totals(folder / "r/radio.csv");
-  EXPECT_GT(sums.at("downlink")[2], 0);
-  EXPECT_EQ(sums.at("uplink")[2], 0);
+  EXPECT_GT(sums.at("downlink")[kRandom], 0);
+  EXPECT_EQ(sums.at("uplink")[kRandom], 0);
+  EXPECT_GT(sums.at("uplink")[kCollision], 0);
+  EXPECT_GT(sums.at("downlink")[kCollision], 0);
+  EXPECT_GT(sums.at("downlink")[kHalfDuplex], 0);
+  EXPECT_GT(sums.at("uplink")[kOutage], 0);
 }
 
 TEST(Radio, OfBadValuesIsRefusedWithPlaceAndRange) {

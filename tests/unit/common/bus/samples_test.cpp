@@ -26,8 +26,10 @@ auto members(AirBatch& b) {
 }
 
 auto members(ReceptionReport& r) {
-  auto& [direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, latency] = r;
-  return std::tie(direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, latency);
+  auto& [direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, path_loss, collision,
+         half_duplex, outage, busy, latency] = r;
+  return std::tie(direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, path_loss, collision,
+                  half_duplex, outage, busy, latency);
 }
 
 auto members(RoadsideBatch& b) {

@@ -152,5 +152,14 @@ TEST(NormalQuantileDeathTest, RefusesTheEndsOfTheInterval) {
   EXPECT_DEATH(math::normal_quantile(1.0), "does not hold");
 }
 
+TEST(Math, NormalDistributionIsThatOfTheComplementaryErrorFunction) {
+  for (double x = -38.0; x <= 38.0; x += 0.01) {
+    EXPECT_NEAR(math::normal_cdf(x), 0.5 * std::erfc(-x / std::sqrt(2.0)), 1e-14) << x;
+  }
+  EXPECT_NEAR(math::normal_quantile(math::normal_cdf(1.25)), 1.25, 1e-12);
+  EXPECT_EQ(math::normal_cdf(-50.0), 0.0);
+  EXPECT_EQ(math::normal_cdf(50.0), 1.0);
+}
+
 }  // namespace
 }  // namespace lukou

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace lukou {
 namespace {
 
@@ -51,6 +53,21 @@ TEST(ReceptionMeasures, StartAgainWhenTheyAreTakenAndKeepTheirRows) {
   EXPECT_EQ(figures[0].sent, 0U);
   EXPECT_FALSE(figures[0].latency_mean_ms.has_value());
   EXPECT_FALSE(figures[0].latency_p95_ms.has_value());
+}
+
+TEST(ReceptionMeasures, AverageTheBusyRatioOverTheReportsThatKnowIt) {
+  ReceptionMeasures measures;
+  for (const double ratio : {0.2, std::numeric_limits<double>::quiet_NaN(), 0.4}) {
+    ReceptionReport said = report(Direction::kUplink, FrameKind::kBsm, 2, {5.0});
+    said.busy_ratio[0] = ratio;
+    said.lost_collision[0] = 3;
+    measures.add(said);
+  }
+  const auto figures = measures.take();
+  EXPECT_NEAR(figures.at(0).busy_ratio.value(), 0.3, 1e-12);
+  EXPECT_EQ(figures.at(0).lost_collision, 9U);
+  measures.add(report(Direction::kUplink, FrameKind::kBsm, 2, {5.0}));
+  EXPECT_FALSE(measures.take().at(0).busy_ratio.has_value());
 }
 
 TEST(ReceptionMeasures, TakeThePercentilesByRank) {

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::uint32_t kFrames = 40'000;
 
-Hop hop(std::uint32_t sequence, std::uint64_t sender = 1, std::uint64_t receiver = 2) {
-  return {.sender = sender, .receiver = receiver, .sequence = sequence, .sent = 100, .distance_m = 10.0};
+Hop hop(std::uint32_t number, std::uint64_t sender = 1, std::uint64_t receiver = 2) {
+  return {.sender = sender, .receiver = receiver, .sequence = number, .sent = Step{number}, .distance_m = 10.0};
 }
 
 std::vector<double> latencies_ms(const LatencyModel& law) {
@@ -142,19 +142,19 @@ TEST(BurstLaw, OfTheLengthOfIndependentLossesIsIndependent) {
   EXPECT_NEAR(correlation(lost, lost, 1), 0.0, 4 * 0.005);
 }
 
-TEST(BurstLaw, IsStationaryFromTheFirstFrameOn) {
+TEST(BurstLaw, IsStationaryFromTheFirstStepOn) {
   const Modem modem(3, bursty(0.2, 8.0));
-  for (const std::uint32_t sequence : {0U, 1U, 5U}) {
+  for (const std::uint32_t step : {0U, 1U, 5U}) {
     int lost = 0;
     for (std::uint64_t receiver = 0; receiver < 10'000; ++receiver) {
-      lost += modem.receive(hop(sequence, 1, receiver)).lost ? 1 : 0;
+      lost += modem.receive(hop(step, 1, receiver)).lost ? 1 : 0;
     }
-    EXPECT_NEAR(lost / 10'000.0, 0.2, 4 * 0.004) << sequence;  // sqrt(0.16 / 10,000)
+    EXPECT_NEAR(lost / 10'000.0, 0.2, 4 * 0.004) << step;  // sqrt(0.16 / 10,000)
   }
 }
 
-TEST(BurstLaw, CountsFramesOfTheLinkThatNobodyAskedAbout) {
-  // Every 8th frame alone: c^8 = 0.84375^8 = 0.2569 is left of the correlation.
+TEST(BurstLaw, GoesOnInStepsThatNobodyAskedAbout) {
+  // Every 8th step alone: c^8 = 0.84375^8 = 0.2569 is left of the correlation.
   const Modem modem(3, bursty(0.2, 8.0));
   std::vector<bool> lost;
   for (std::uint32_t n = 0; n < kFrames; ++n) lost.push_back(modem.receive(hop(8 * n)).lost.has_value());

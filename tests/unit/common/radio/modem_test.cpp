@@ -11,8 +11,10 @@ namespace {
 constexpr std::uint64_t kSeed = 7;
 constexpr Step kSent = 1000;
 
-Hop hop(std::uint32_t sequence, std::uint64_t sender = 11, std::uint64_t receiver = 22) {
-  return {.sender = sender, .receiver = receiver, .sequence = sequence, .sent = kSent, .distance_m = 100.0};
+/// The frame of a station `number` steps after kSent.
+Hop hop(std::uint32_t number, std::uint64_t sender = 11, std::uint64_t receiver = 22) {
+  return {
+      .sender = sender, .receiver = receiver, .sequence = number, .sent = kSent + Step{number}, .distance_m = 100.0};
 }
 
 LinkModel constant(double latency_ms) {
@@ -32,7 +34,7 @@ TEST(Modem, OfAnIdealLinkHearsEveryFrameAtItsInstantHoweverFar) {
     far.distance_m = 1e7;
     const Reception heard = modem.receive(far);
     ASSERT_FALSE(heard.lost);
-    EXPECT_EQ(heard.first.due, kSent);
+    EXPECT_EQ(heard.first.due, far.sent);
     EXPECT_EQ(heard.first.latency_ms, 0.0);
     EXPECT_FALSE(heard.second);
   }
@@ -65,8 +67,8 @@ TEST(Modem, GivesEverySenderAPhaseOfItsOwnThatStays) {
     ASSERT_GT(phase, 0.0);
     ASSERT_LT(phase, 100.0);
     sum_ms += phase;
-    later_5 += fast.receive(hop(3, sender)).first.due == kSent + 1 ? 1 : 0;
-    later_95 += slow.receive(hop(4, sender)).first.due == kSent + 1 ? 1 : 0;
+    later_5 += fast.receive(hop(0, sender)).first.due == kSent + 1 ? 1 : 0;
+    later_95 += slow.receive(hop(0, sender)).first.due == kSent + 1 ? 1 : 0;
   }
   EXPECT_NEAR(sum_ms / kSenders, 50.0, 1.5);
   EXPECT_NEAR(later_5 / 10'000.0, 0.05, 0.009);
@@ -128,6 +130,33 @@ TEST(Modem, AnswersTheSameInWhateverOrderItIsAsked) {
     EXPECT_EQ(again.first.at_ms, forwards[n].first.at_ms) << n;
     EXPECT_EQ(again.second.has_value(), forwards[n].second.has_value()) << n;
   }
+}
+
+TEST(Modem, DrawsForAFrameWhateverElseItsSenderSays) {
+  // The same frame with another number and in another place, since the RSU advises more cars: the same fate. A frame of
+  // another kind in the same step has draws of its own, but shares the state of the link.
+  LinkModel model = {.latency = {.law = LatencyModel::Law::kUniform, .min_ms = 4.0, .max_ms = 100.0}};
+  model.loss_rate = 0.5;
+  const Modem modem(kSeed, model);
+  model.loss_rate = 0.0;
+  model.burst_rate = 0.5;
+  model.burst_mean_length = 5.0;
+  const Modem bursty(kSeed, model);
+  int differ = 0;
+  for (std::uint32_t n = 0; n < 1000; ++n) {
+    Hop advice = hop(n);
+    advice.kind = 5;
+    Hop shifted = advice;
+    shifted.sequence += 1000;
+    shifted.place = 3;
+    EXPECT_EQ(modem.receive(advice).lost, modem.receive(shifted).lost) << n;
+    EXPECT_EQ(modem.receive(advice).first.at_ms, modem.receive(shifted).first.at_ms) << n;
+    Hop spat = advice;
+    spat.kind = 3;
+    differ += modem.receive(advice).lost != modem.receive(spat).lost ? 1 : 0;
+    EXPECT_EQ(bursty.receive(advice).lost, bursty.receive(spat).lost) << n;
+  }
+  EXPECT_NEAR(differ, 500, 64);  // 4 deviations of sqrt(1000 / 4)
 }
 
 TEST(Modem, DuplicatesTheShareItIsToldAndNeverBeforeTheFirst) {

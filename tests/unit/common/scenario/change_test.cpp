@@ -34,10 +34,16 @@ TEST(Change, OfAnotherFieldIsRefusedWithTheListOfLiveFields) {
             "vehicles.compliance.gain_deviation, vehicles.compliance.threshold_mps2, vehicles.positioning, "
             "vehicles.clock_offset_ms, signals.preset, signals.plan, "
             "radio.uplink.latency, radio.uplink.loss.rate, radio.uplink.loss.burst, radio.uplink.range_m, "
-            "radio.uplink.duplicate_rate, radio.downlink.latency, radio.downlink.loss.rate, radio.downlink.loss.burst, "
-            "radio.downlink.range_m, radio.downlink.duplicate_rate, "
-            "rsus[].sensors[].miss_rate, rsus[].sensors[].position_noise_m, rsus[].sensors[].speed_noise_mps, "
-            "rsus[].sensors[].latency_ms");
+            "radio.uplink.duplicate_rate, radio.uplink.path_loss, radio.uplink.half_duplex, "
+            "radio.uplink.collisions, radio.downlink.latency, radio.downlink.loss.rate, "
+            "radio.downlink.loss.burst, radio.downlink.range_m, radio.downlink.duplicate_rate, "
+            "radio.downlink.path_loss, radio.downlink.half_duplex, radio.downlink.collisions, radio.load, "
+            "radio.vehicle_to_vehicle.latency, radio.vehicle_to_vehicle.loss.rate, "
+            "radio.vehicle_to_vehicle.loss.burst, radio.vehicle_to_vehicle.range_m, "
+            "radio.vehicle_to_vehicle.duplicate_rate, radio.vehicle_to_vehicle.path_loss, "
+            "radio.vehicle_to_vehicle.half_duplex, radio.vehicle_to_vehicle.collisions, radio.awareness_m, "
+            "radio.reservation, radio.outages[], rsus[].sensors[].miss_rate, rsus[].sensors[].position_noise_m, "
+            "rsus[].sensors[].speed_noise_mps, rsus[].sensors[].latency_ms");
   EXPECT_EQ(text(scenario), before);
 }
 

@@ -33,7 +33,7 @@ constexpr BadFile kBadFiles[] = {
     {"run { seed: 1 seed: 2 }", "my.textproto:1:15: `seed` stands here a second time; it may be given once"},
     {"signals { preset: PAPPER }",
      "my.textproto:1:19: `PAPPER` is no value of preset: signals.preset takes PAPER, PAPER_YELLOW, PROTECTED_LEFT; "
-     "radio.preset takes IDEAL, PC5_MODE4, DSRC_SNS, UU_4G_EDGE, UU_5G_EDGE, HARSH"},
+     "radio.preset takes IDEAL, PC5_MODE4, DSRC_SNS, UU_4G_EDGE, UU_5G_EDGE, HARSH, NR_V2X"},
     {"signals { preset: 0 }",
      "my.textproto:1:11: signals.preset is SIGNAL_PRESET_UNSPECIFIED, must be one of PAPER, PAPER_YELLOW, "
      "PROTECTED_LEFT"},

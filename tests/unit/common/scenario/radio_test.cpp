@@ -54,6 +54,19 @@ TEST(Radio, PresetsHoldWhatTheirSourcesSay) {
   EXPECT_EQ(mode4.latency.law, LatencyModel::Law::kUniform);
   EXPECT_EQ(mode4.latency.min_ms, 4.0);
   EXPECT_EQ(mode4.latency.max_ms, 100.0);
+  EXPECT_TRUE(mode4.latency.per_reservation);
+  EXPECT_TRUE(mode4.half_duplex);
+  EXPECT_TRUE(mode4.collisions);
+  EXPECT_EQ(mode4.path_loss.law, PathLossModel::Law::kTr37885);
+  const LoadModel load = radio_of("radio { preset: PC5_MODE4 }").load;
+  EXPECT_TRUE(load.counted);
+  EXPECT_EQ(load.sub_channels, 4U);
+  EXPECT_EQ(load.bytes_per_sub_channel, 190U);
+  EXPECT_EQ(load.path_loss, mode4.path_loss);
+  const LinkModel mode2 = radio_of("radio { preset: NR_V2X }").downlink;
+  EXPECT_EQ(mode2.latency.min_ms, 2.0);
+  EXPECT_EQ(mode2.latency.max_ms, 20.0);
+  EXPECT_TRUE(mode2.collisions);
   const LinkModel sns = radio_of("radio { preset: DSRC_SNS }").downlink;
   EXPECT_EQ(sns.latency.min_ms, 0.4);
   EXPECT_EQ(sns.latency.max_ms, 2.4);
@@ -97,8 +110,41 @@ TEST(Radio, LetsALatencyOfAnotherFormReplaceThePresets) {
   EXPECT_EQ(radio.downlink.latency.mean_ms, 90.0);
 }
 
+TEST(Radio, TakesCarToCarFromThePresetWhereTheScenarioSpeaksOfIt) {
+  EXPECT_FALSE(radio_of("radio { preset: PC5_MODE4 }").vehicle_to_vehicle.has_value());
+  const RadioParameters radio =
+      radio_of("radio { preset: PC5_MODE4 vehicle_to_vehicle { path_loss { law: WINNER_B1 antenna_height_m: 0.5 } } }");
+  ASSERT_TRUE(radio.vehicle_to_vehicle.has_value());
+  EXPECT_TRUE(radio.vehicle_to_vehicle->half_duplex);
+  EXPECT_EQ(radio.vehicle_to_vehicle->path_loss.law, PathLossModel::Law::kWinnerB1);
+  EXPECT_EQ(radio.load.path_loss.antenna_height_m, 0.5);  // the load is what cars hear of each other
+  EXPECT_EQ(radio.awareness_m, 150.0);
+  EXPECT_EQ(radio_of("radio { vehicle_to_vehicle {} awareness_m: 80 }").awareness_m, 80.0);
+  EXPECT_TRUE(radio_of("radio { vehicle_to_vehicle {} }").modelled);
+}
+
+TEST(Radio, TakesOutagesInSteps) {
+  const RadioParameters radio = radio_of(
+      "radio { outages { from_s: 10.3 to_s: 20 approach: SOUTH direction: UPLINK rsu: 0 } "
+      "outages { from_s: 0 to_s: 1 area { x_min_m: -5 } } }");
+  EXPECT_TRUE(radio.modelled);
+  ASSERT_EQ(radio.outages.size(), 2U);
+  EXPECT_EQ(radio.outages[0].from, 103);
+  EXPECT_EQ(radio.outages[0].to, 200);
+  EXPECT_EQ(radio.outages[0].arm, Arm::kSouth);
+  EXPECT_EQ(radio.outages[0].rsu, 0U);
+  EXPECT_TRUE(radio.outages[0].uplink);
+  EXPECT_FALSE(radio.outages[0].downlink);
+  EXPECT_FALSE(radio.outages[0].area.has_value());
+  EXPECT_TRUE(radio.outages[1].uplink && radio.outages[1].downlink);
+  EXPECT_FALSE(radio.outages[1].arm || radio.outages[1].rsu);
+  ASSERT_TRUE(radio.outages[1].area.has_value());
+  EXPECT_EQ(radio.outages[1].area->x_min_m, -5.0);
+  EXPECT_EQ(radio.outages[1].area->y_max_m, 10'000.0);
+}
+
 TEST(Radio, ReadsItsOwnCanonicalTextBackToTheSameText) {
-  for (const char* preset : {"IDEAL", "PC5_MODE4", "DSRC_SNS", "UU_4G_EDGE", "UU_5G_EDGE", "HARSH"}) {
+  for (const char* preset : {"IDEAL", "PC5_MODE4", "DSRC_SNS", "UU_4G_EDGE", "UU_5G_EDGE", "HARSH", "NR_V2X"}) {
     const auto first = loaded(std::string("radio { preset: ") + preset + " }", {"radio.uplink.latency.constant_ms=3"});
     ASSERT_TRUE(first.ok()) << first.error().text();
     const std::string canonical = text(first.value());
@@ -119,7 +165,7 @@ constexpr BadRadio kBadRadios[] = {
     {"radio { uplink { loss { burst { rate: 0.2 mean_length: 0.5 } } } }",
      "my.textproto:1:43: radio.uplink.loss.burst.mean_length is 0.5 frames, must be within [1, 1000] frames"},
     {"radio { uplink { loss { burst { rate: 0.75 mean_length: 2 } } } }",
-     "my.textproto:1:44: radio.uplink.loss.burst.mean_length is 2 frames, must be at least 1 / (1 - rate), 4 frames: "
+     "my.textproto:1:44: radio.uplink.loss.burst.mean_length is 2 steps, must be at least 1 / (1 - rate), 4 steps: "
      "the "
      "length that independent losses have"},
     {"radio { uplink { loss { burst { rate: 0.2 } } } }",
@@ -134,9 +180,31 @@ constexpr BadRadio kBadRadios[] = {
     {"radio { uplink { range_m: 0 } }", "my.textproto:1:18: radio.uplink.range_m is 0 m, must be within [1, 100000] m"},
     {"radio { downlink { duplicate_rate: -1 } }",
      "my.textproto:1:20: radio.downlink.duplicate_rate is -1, must be within [0, 1]"},
+    {"radio { uplink { collisions: true } }",
+     "my.textproto:1:18: radio.uplink.collisions is true, but nothing counts the load: give radio.load={}"},
+    {"radio { load { sub_channels: 4 } }",
+     "my.textproto:1:9: radio.load counts what stations hear of each other: give vehicle_to_vehicle or uplink a "
+     "path_loss"},
+    {"radio { reservation { keep_probability: 0.9 } }",
+     "my.textproto:1:23: radio.reservation.keep_probability is 0.9, must be within [0, 0.8]"},
+    {"radio { uplink { path_loss { law: TR_36885 } } }",
+     "my.textproto:1:35: `TR_36885` is no value of law: radio.uplink.path_loss.law takes TR_37885, WINNER_B1"},
+    {"radio { outages { from_s: 5 to_s: 5 } }",
+     "my.textproto:1:29: radio.outages[0].to_s is 5 s, must be after from_s, 5 s"},
+    {"radio { outages { to_s: 5 } }",
+     "my.textproto:1:9: radio.outages[0].from_s is missing; it takes a number within [0, 1000000] s"},
+    {"radio { outages { from_s: 1 to_s: 5 rsu: 1 } }",
+     "my.textproto:1:37: radio.outages[0].rsu is 1, must be below 1, the number of RSUs"},
+    {"radio { outages { from_s: 1 to_s: 5.05 } }",
+     "my.textproto:1:29: radio.outages[0].to_s is 5.05 s, must be a multiple of 0.1 s, the length of a step"},
+    {"radio { outages { from_s: 1 to_s: 5 area { x_min_m: 3 x_max_m: 2 } } }",
+     "my.textproto:1:55: radio.outages[0].area.x_max_m is 2 m, must not be below x_min_m, 3 m"},
+    {"radio {\n  preset: HARSHER\n  # nothing more\n}\n",
+     "my.textproto:2:11: `HARSHER` is no value of preset: signals.preset takes PAPER, PAPER_YELLOW, PROTECTED_LEFT; "
+     "radio.preset takes IDEAL, PC5_MODE4, DSRC_SNS, UU_4G_EDGE, UU_5G_EDGE, HARSH, NR_V2X"},
     {"radio { preset: HARSHER }",
      "my.textproto:1:17: `HARSHER` is no value of preset: signals.preset takes PAPER, PAPER_YELLOW, PROTECTED_LEFT; "
-     "radio.preset takes IDEAL, PC5_MODE4, DSRC_SNS, UU_4G_EDGE, UU_5G_EDGE, HARSH"},
+     "radio.preset takes IDEAL, PC5_MODE4, DSRC_SNS, UU_4G_EDGE, UU_5G_EDGE, HARSH, NR_V2X"},
 };
 
 TEST(Radio, SaysWhereItIsWrongAndWhatWouldBeRight) {
@@ -162,6 +230,16 @@ TEST(Radio, ChangesWhileARunGoesOnButNotItsPreset) {
   ASSERT_TRUE(change(live, "radio.uplink.latency.constant_ms=200").ok());
   ASSERT_TRUE(change(live, "radio.uplink.latency={uniform {min_ms: 1 max_ms: 2}}").ok());
   EXPECT_EQ(radio_parameters(live.message()).uplink.latency.law, LatencyModel::Law::kUniform);
+  ASSERT_TRUE(change(live, "radio.uplink.path_loss={power_dbm: 10}").ok());
+  ASSERT_TRUE(change(live, "radio.load={}").ok());
+  ASSERT_TRUE(change(live, "radio.uplink.collisions=true").ok());
+  ASSERT_TRUE(change(live, "radio.outages[0]={from_s: 20 to_s: 30}").ok());
+  ASSERT_TRUE(change(live, "radio.outages[1]={from_s: 40 to_s: 50 direction: UPLINK}").ok());
+  const RadioParameters changed = radio_parameters(live.message());
+  EXPECT_EQ(changed.load.path_loss.power_dbm, 10.0);
+  EXPECT_TRUE(changed.uplink.collisions);
+  EXPECT_EQ(changed.outages.size(), 2U);
+  EXPECT_FALSE(change(live, "radio.outages[2]={from_s: 20 to_s: 10}").ok());
   EXPECT_FALSE(change(live, "radio.preset=HARSH").ok());
   EXPECT_FALSE(change(live, "radio.uplink.loss.rate=2").ok());
 }

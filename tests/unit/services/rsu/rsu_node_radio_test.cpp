@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "services/rsu/rsu_node.hpp"
@@ -97,7 +98,13 @@ TEST(RsuNodeRadio, CountsWhatIsLostAndWhy) {
   rsu.node().change(with_uplink(model));
   rsu.step();
   EXPECT_EQ(rsu.out().reception.lost_range[0], 1U);
+  model.path_loss = {.law = PathLossModel::Law::kTr37885, .sensitivity_dbm = -20.0};
   model.range_m = 130.0;
+  rsu.node().change(with_uplink(model));
+  rsu.step();
+  EXPECT_EQ(rsu.out().reception.lost_path_loss[0], 1U);
+  EXPECT_TRUE(std::isnan(rsu.out().reception.busy_ratio[0]));
+  model.path_loss = {};
   rsu.node().change(with_uplink(model));
   rsu.step();
   EXPECT_EQ(rsu.ages(), (std::vector<Step>{0}));

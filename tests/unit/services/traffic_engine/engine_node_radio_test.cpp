@@ -85,8 +85,10 @@ TEST(EngineNodeRadio, SaysWhyAdviceIsLost) {
   noisy.loss_rate = 1.0;
   LinkModel near;
   near.range_m = 50.0;  // the car is about 350 m away
-  for (const auto& [model, fate] :
-       {std::pair(noisy, AdviceFate::kLostRandom), std::pair(near, AdviceFate::kLostRange)}) {
+  LinkModel weak;
+  weak.path_loss = {.law = PathLossModel::Law::kTr37885, .sensitivity_dbm = -20.0};
+  for (const auto& [model, fate] : {std::pair(noisy, AdviceFate::kLostRandom), std::pair(near, AdviceFate::kLostRange),
+                                    std::pair(weak, AdviceFate::kLostPathLoss)}) {
     Drive drive(with_downlink(model));
     drive.run_to(100);
     const RoadsideBatch batch = guidance(100, drive.air().frames.sender[0], -0.37);
@@ -95,8 +97,40 @@ TEST(EngineNodeRadio, SaysWhyAdviceIsLost) {
     EXPECT_EQ(drive.traffic().fate_vehicle[0], 0U);
     EXPECT_EQ(drive.traffic().fate_sequence[0], 41U);
     EXPECT_TRUE(std::isnan(drive.traffic().commanded_mps2[0]));
-    EXPECT_EQ(drive.traffic().reception.lost_random[0] + drive.traffic().reception.lost_range[0], 1U);
+    const ReceptionReport& said = drive.traffic().reception;
+    EXPECT_EQ(said.lost_random[0] + said.lost_range[0] + said.lost_path_loss[0], 1U);
   }
+}
+
+TEST(EngineNodeRadio, LosesAdviceInAPlannedOutageOfTheRsuThatSendsIt) {
+  EngineConfig config = with_downlink({});
+  config.radio.outages = {{.from = 100, .to = 101, .rsu = 2, .arm = Arm::kWest},
+                          {.from = 101, .to = 102, .rsu = 0},
+                          {.from = 101, .to = 102, .arm = Arm::kEast},
+                          {.from = 101, .to = 102, .downlink = false}};
+  Drive drive(config);
+  drive.run_to(100);
+  const RoadsideBatch lost = guidance(100, drive.air().frames.sender[0], -0.37);
+  drive.step(&lost);
+  EXPECT_EQ(drive.traffic().fate, fates({AdviceFate::kLostOutage}));
+  EXPECT_EQ(drive.traffic().reception.lost_outage[0], 1U);
+  const RoadsideBatch heard = numbered(guidance(101, drive.air().frames.sender[0], -0.37), 42);
+  drive.step(&heard);
+  EXPECT_EQ(drive.traffic().fate, fates({AdviceFate::kApplied}));
+}
+
+TEST(EngineNodeRadio, ReportsTheLoadAndWhatCarsHearOfEachOther) {
+  EngineConfig config = with_downlink({});
+  config.radio.load = {.counted = true, .path_loss = {.law = PathLossModel::Law::kTr37885}};
+  config.radio.vehicle_to_vehicle = LinkModel{};
+  Drive drive(config);
+  drive.run_to(101);
+  const ReceptionReport& said = drive.traffic().reception;
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_EQ(said.direction[1], static_cast<std::uint8_t>(Direction::kVehicleToVehicle));
+  EXPECT_EQ(said.sent[1], 0U);  // one car has nobody to hear it
+  // One car with one sub-channel: half of one, and half of a half that coincides: 0.5 + 0.5 - 0.5 * 1.5 / 799 of 400.
+  EXPECT_NEAR(said.busy_ratio[0], 0.99906 / 400.0, 1e-7);
 }
 
 TEST(EngineNodeRadio, SaysThatAdviceWasLostInABurst) {
