@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -41,7 +42,7 @@ Layout guidance_layout() {
 struct Total {
   std::string name;
   std::uint64_t rows = 0;
-  double stood_s = 0.0;
+  std::int64_t stood_tenths = 0;  ///< of a second
 };
 
 double number(std::string_view cell) {
@@ -154,7 +155,7 @@ class Answer {
     if (total == totals_.end()) total = totals_.insert(totals_.end(), Total{std::string(name)});
     ++total->rows;
     ++rows_;
-    if (layout_.stood) total->stood_s += number(cells[*layout_.stood]);
+    if (layout_.stood) total->stood_tenths += std::llround(number(cells[*layout_.stood]) * 10.0);
     if (!question_.list) return;
     if (question_.json) {
       listed_.push_back(row_json(names, cells));
@@ -177,18 +178,18 @@ class Answer {
     if (question_.list) std::putchar('\n');
     std::printf("%-22s %10s %8s%s\n", question_.guidance ? "fate of advice" : "cause of stop", "count", "share",
                 layout_.stood ? "     stood s" : "");
-    double stood_s = 0.0;
+    Total all{"total", rows_};
     for (const Total& total : totals_) {
       print_total(total);
-      stood_s += total.stood_s;
+      all.stood_tenths += total.stood_tenths;
     }
-    print_total({"total", rows_, stood_s});
+    print_total(all);
   }
 
   void print_total(const Total& total) const {
     const double share = rows_ == 0 ? 0.0 : 100.0 * static_cast<double>(total.rows) / static_cast<double>(rows_);
     std::printf("%-22s %10llu %7.1f%%", total.name.c_str(), static_cast<unsigned long long>(total.rows), share);
-    if (layout_.stood) std::printf(" %11.1f", total.stood_s);
+    if (layout_.stood) std::printf(" %11.1f", static_cast<double>(total.stood_tenths) / 10.0);
     std::putchar('\n');
   }
 
@@ -202,7 +203,7 @@ class Answer {
       Json entry = {{"name", total.name},
                     {"count", total.rows},
                     {"share", static_cast<double>(total.rows) / static_cast<double>(rows_)}};
-      if (layout_.stood) entry["stood_s"] = total.stood_s;
+      if (layout_.stood) entry["stood_s"] = static_cast<double>(total.stood_tenths) / 10.0;
       totals.push_back(std::move(entry));
     }
     if (question_.list) json["stops"] = listed_;

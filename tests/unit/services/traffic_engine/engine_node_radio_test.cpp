@@ -300,7 +300,7 @@ TEST(EngineNodeRadio, RefusesAReceptionReportWithBrokenColumns) {
 /// What an arriving car brings with it, by its number.
 using Arrivals = std::map<std::uint32_t, std::tuple<double, std::uint8_t>>;
 
-TEST(EngineNodeRadio, LeavesArrivalsAndDriversAloneHoweverBadItIs) {
+TEST(EngineNodeRadio, LeavesArrivalsAndDriversAloneHoweverBadItIsAndWhoeverFollows) {
   LinkModel harsh = {.latency = {.law = LatencyModel::Law::kGamma, .min_ms = 50.0, .mean_ms = 150.0}};
   harsh.loss_rate = 0.3;
   harsh.burst_rate = 0.2;
@@ -308,8 +308,12 @@ TEST(EngineNodeRadio, LeavesArrivalsAndDriversAloneHoweverBadItIs) {
   std::vector<Arrivals> seen;
   std::vector<std::vector<std::uint32_t>> counts;
   std::vector<std::vector<double>> accelerations;
-  for (const LinkModel& model : {LinkModel{}, harsh}) {
+  const traffic::ComplianceParameters mixed{.human_share = 0.5, .ignoring_share = 0.3};
+  for (const auto& [model, compliance] : {std::pair(LinkModel{}, traffic::ComplianceParameters{}),
+                                          {harsh, traffic::ComplianceParameters{}},
+                                          {LinkModel{}, mixed}}) {
     EngineConfig config;
+    config.traffic.compliance = compliance;
     for (auto& demand : config.traffic.demand) demand.flows = {{.from_s = 0.0, .flow_veh_per_h = 900.0}};
     config.radio = {.seed = config.traffic.seed, .modelled = true, .uplink = {}, .downlink = model};
     Drive drive(config);
@@ -333,9 +337,11 @@ TEST(EngineNodeRadio, LeavesArrivalsAndDriversAloneHoweverBadItIs) {
     accelerations.push_back(drive.traffic().acceleration_mps2);
   }
   EXPECT_GT(seen[0].size(), 100U);
-  EXPECT_EQ(seen[0], seen[1]);
-  EXPECT_EQ(counts[0], counts[1]);
-  EXPECT_NE(accelerations[0], accelerations[1]) << "the radio made no difference: the test shows nothing";
+  for (const std::size_t other : {1U, 2U}) {
+    EXPECT_EQ(seen[0], seen[other]);
+    EXPECT_EQ(counts[0], counts[other]);
+    EXPECT_NE(accelerations[0], accelerations[other]) << "it made no difference: the test shows nothing";
+  }
 }
 
 }  // namespace
