@@ -40,9 +40,9 @@ enum class Purpose : std::uint16_t {
   kPositionBias = 30,   ///< constant error of a unit's position, index = axis
   kPositionNoise = 31,  ///< innovation of the error that wanders, index = 2 * step + axis
   kUnitClock = 32,      ///< constant offset of a unit's clock
-  kCompliance = 35,          ///< how a driver takes advice, compared with the shares; entity = vehicle
-  kDriverGain = 36,          ///< how strongly a human follows a command; entity = vehicle
-  kTest = 100,               ///< tests
+  kCompliance = 35,     ///< how a driver takes advice, compared with the shares; entity = vehicle
+  kDriverGain = 36,     ///< how strongly a human follows a command; entity = vehicle
+  kTest = 100,          ///< tests
 };
 
 /// A draw is a pure function of its key: neither order nor other draws can change it.

@@ -156,7 +156,8 @@ std::optional<LossCause> Modem::loss(std::uint64_t link, const Hop& hop) const {
       return LossCause::kCollision;
   }
   if (in_bad_state(link, hop.sent)) return LossCause::kBurst;
-  if (model_.loss_rate > 0.0 && uniform01(draw_of(seed_, Purpose::kRadioLoss, link, frame_number(hop))) < model_.loss_rate)
+  if (model_.loss_rate > 0.0 &&
+      uniform01(draw_of(seed_, Purpose::kRadioLoss, link, frame_number(hop))) < model_.loss_rate)
     return LossCause::kRandom;
   return std::nullopt;
 }

@@ -73,8 +73,8 @@ bool hits(const Outage& outage, const Hop& hop);
 
 /// The receiving half of the radio: decides for each frame whether a station hears it, and when. A pure function of
 /// seed, model, and hop: neither the order of questions nor other links can change an answer. Frames of one kind that a
-/// station sends in one step share their draws at a receiver, so how much else is sent can change none of them. It keeps
-/// draws that it will need again, for speed alone.
+/// station sends in one step share their draws at a receiver, so how much else is sent can change none of them. It
+/// keeps draws that it will need again, for speed alone.
 class Modem {
  public:
   /// Requires a model within its ranges, as all below.

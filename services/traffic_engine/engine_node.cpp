@@ -187,7 +187,7 @@ void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch,
   }
 }
 
-Hop EngineNode::hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& batch, std::size_t frame) const {
+Hop EngineNode::hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& batch, std::size_t frame) {
   const traffic::EngineParameters& parameters = engine_.parameters();
   const Pose pose = pose_on_path(parameters.road, lane, car.motion.position_m);
   const PlanePoint antenna = centre_of_car({pose.x_m, pose.y_m}, pose.heading_rad, parameters.vehicles.length_m);

@@ -50,7 +50,7 @@ class EngineNode {
   void hear(const RoadsideBatch& batch);
   /// Lets units whose advice outlives a silence of its RSU hear that it speaks.
   void hear_spat(const RoadsideBatch& batch, std::size_t frame);
-  [[nodiscard]] Hop hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& batch, std::size_t frame) const;
+  [[nodiscard]] Hop hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& batch, std::size_t frame);
   void hear_coordination(const RoadsideBatch& batch, std::size_t frame);
   void send(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame);
   /// Takes the advice that has reached its car by `now`.

@@ -163,13 +163,13 @@ constexpr BadRadio kBadRadios[] = {
     {"radio {\n  downlink { loss { rate: 1.5 } }\n}",
      "my.textproto:2:21: radio.downlink.loss.rate is 1.5, must be within [0, 1]"},
     {"radio { uplink { loss { burst { rate: 0.2 mean_length: 0.5 } } } }",
-     "my.textproto:1:43: radio.uplink.loss.burst.mean_length is 0.5 frames, must be within [1, 1000] frames"},
+     "my.textproto:1:43: radio.uplink.loss.burst.mean_length is 0.5 steps, must be within [1, 1000] steps"},
     {"radio { uplink { loss { burst { rate: 0.75 mean_length: 2 } } } }",
      "my.textproto:1:44: radio.uplink.loss.burst.mean_length is 2 steps, must be at least 1 / (1 - rate), 4 steps: "
      "the "
      "length that independent losses have"},
     {"radio { uplink { loss { burst { rate: 0.2 } } } }",
-     "my.textproto:1:25: radio.uplink.loss.burst.mean_length is missing; it takes a number within [1, 1000] frames"},
+     "my.textproto:1:25: radio.uplink.loss.burst.mean_length is missing; it takes a number within [1, 1000] steps"},
     {"radio { uplink { latency { gamma { min_ms: 50 mean_ms: 40 } } } }",
      "my.textproto:1:47: radio.uplink.latency.gamma.mean_ms is 40 ms, must be within [min_ms, 5000] ms, [50, 5000] ms"},
     {"radio { uplink { latency { uniform { min_ms: 50 max_ms: 40 } } } }",
