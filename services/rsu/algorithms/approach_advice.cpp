@@ -10,6 +10,8 @@ namespace {
 
 /// Nearer to its arrival a closed form answers every deviation with a jolt: the car is brought to an even speed.
 constexpr double kLastPart_s = 1.0;  // assumed
+/// Farther away no car brakes for red. Source: the traffic model, reaction distance.
+constexpr double kGoDistance_m = 150.0;
 
 }  // namespace
 
@@ -22,6 +24,14 @@ void ApproachAdvice::advise(const HeardCar& car, double acceleration_mps2, RsuAn
                          .lifetime = std::max<Step>(1, step_at_or_after(rules_.lifetime_s)),
                          .binding = Binding::kFollowing});
   advised_now_.push_back(car.id);
+}
+
+void ApproachAdvice::go(const HeardCar& car, RsuAnswer& answer) {
+  if (car.distance_m > kGoDistance_m) {
+    release(car, answer);
+  } else {
+    advise(car, rules_.acceleration_max_mps2, answer);
+  }
 }
 
 void ApproachAdvice::release(const HeardCar& car, RsuAnswer& answer) const {

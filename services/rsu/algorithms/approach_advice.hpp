@@ -17,8 +17,9 @@ class ApproachAdvice {
   explicit ApproachAdvice(const ApproachRules& rules);
 
   void advise(const HeardCar& car, double acceleration_mps2, RsuAnswer& answer);
-  /// The largest acceleration: under FOLLOWING the car drives as it likes, but does not brake for red by comfort.
-  void go(const HeardCar& car, RsuAnswer& answer) { advise(car, rules_.acceleration_max_mps2, answer); }
+  /// The largest acceleration: under FOLLOWING the car drives as it likes, but does not brake for red by comfort. A car
+  /// so far away that none brakes for red is released instead.
+  void go(const HeardCar& car, RsuAnswer& answer);
   /// Only a car that was advised in the step before is told.
   void release(const HeardCar& car, RsuAnswer& answer) const;
   /// After the last word of a step.

@@ -5,12 +5,12 @@ namespace lukou {
 /// What the algorithms that steer a car to a crossing time have in common; the scenario says what each is.
 struct ApproachRules {
   double acceleration_max_mps2 = 3.0;  ///< of every car, both signs
-  double activation_distance_m = 300.0;
+  double activation_distance_m = 500.0;
   double speed_min_mps = 18.0 / 3.6;
   double target_speed_share = 0.9;
   double speeding_up_mps2 = 2.0;
   double slowing_down_mps2 = 1.5;
-  double first_crossing_s = 1.0;
+  double first_crossing_s = 1.5;
   double tail_s = 2.5;
   double slack_s = 1.0;
   double gain_time_s = 2.0;

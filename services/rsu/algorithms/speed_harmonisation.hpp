@@ -9,7 +9,7 @@
 namespace lukou {
 
 struct SpeedHarmonisationParameters {
-  ApproachRules approach;
+  ApproachRules approach{.activation_distance_m = 200.0};
   QueueRules queue;
   double speed_change_mps2 = 5.0 / 3.6;  ///< at which the advised speed of a lane may change
 };
