@@ -15,6 +15,11 @@ constexpr double kGoDistance_m = 150.0;
 
 }  // namespace
 
+Need need_of(const ApproachRules& rules, const LaneView& lane, const Crossing& crossing) {
+  if (crossing.time_s > crossing.earliest_s + rules.slack_s) return Need::kDelay;
+  return lane.aspect == Aspect::kGreen ? Need::kNothing : Need::kGo;
+}
+
 ApproachAdvice::ApproachAdvice(const ApproachRules& rules) : rules_(rules) {
   LUKOU_EXPECT(rules.acceleration_max_mps2 > 0.0 && rules.gain_time_s > 0.0);
 }
@@ -38,44 +43,54 @@ void ApproachAdvice::release(const HeardCar& car, RsuAnswer& answer) const {
   if (std::ranges::binary_search(advised_, car.id)) answer.release(car.id);
 }
 
+std::optional<ArrivalGoal> ApproachAdvice::goal_of(const RsuView& heard, const LaneView& lane, const HeardCar& car,
+                                                   const Crossing& crossing, RsuAnswer& answer) {
+  const bool is_ours = crossing.kind == Crossing::Kind::kPlanned && car.distance_m <= rules_.activation_distance_m;
+  switch (is_ours ? need_of(rules_, lane, crossing) : Need::kNothing) {
+    case Need::kNothing:
+      release(car, answer);
+      break;
+    case Need::kGo:
+      go(car, answer);
+      break;
+    case Need::kDelay:
+      return ArrivalGoal{car.distance_m, car.speed_mps, crossing.time_s - heard.time_s};
+  }
+  return std::nullopt;
+}
+
 void ApproachAdvice::end_step() {
   std::ranges::sort(advised_now_);
   std::swap(advised_, advised_now_);
   advised_now_.clear();
 }
 
-Need need_of(const ApproachRules& rules, const LaneView& lane, const Crossing& crossing) {
-  if (crossing.time_s > crossing.earliest_s + rules.slack_s) return Need::kDelay;
-  return lane.aspect == Aspect::kGreen ? Need::kNothing : Need::kGo;
-}
-
-double even_speed_mps(const ApproachRules& rules, const ArrivalGoal& arrival, double speed_limit_mps) {
-  LUKOU_EXPECT(arrival.time_s > 0.0);
+double even_speed_mps(const ApproachRules& rules, const ArrivalGoal& goal, double speed_limit_mps) {
+  LUKOU_EXPECT(goal.time_s > 0.0);
   const double least_mps = std::min(rules.speed_min_mps, speed_limit_mps);
-  return std::clamp(arrival.distance_m / arrival.time_s, least_mps, speed_limit_mps);
+  return std::clamp(goal.distance_m / goal.time_s, least_mps, speed_limit_mps);
 }
 
 double towards_mps2(const ApproachRules& rules, double speed_mps, double wanted_mps) {
   return std::clamp((wanted_mps - speed_mps) / rules.gain_time_s, -rules.slowing_down_mps2, rules.speeding_up_mps2);
 }
 
-double smooth_arrival_mps2(const ApproachRules& rules, const ArrivalGoal& arrival, double speed_limit_mps,
+double smooth_arrival_mps2(const ApproachRules& rules, const ArrivalGoal& goal, double speed_limit_mps,
                            std::optional<double> end_speed_mps) {
   const double least_mps = std::min(rules.speed_min_mps, speed_limit_mps);
-  if (arrival.time_s > kLastPart_s) {
-    const RampedAcceleration ramp =
-        end_speed_mps ? smoothest_arrival(arrival, *end_speed_mps) : smoothest_arrival(arrival);
-    const Extent speeds = speeds_on_the_way_mps(arrival, ramp);
-    const Extent accelerations = accelerations_on_the_way_mps2(arrival, ramp);
+  if (goal.time_s > kLastPart_s) {
+    const RampedAcceleration ramp = end_speed_mps ? smoothest_arrival(goal, *end_speed_mps) : smoothest_arrival(goal);
+    const Extent speeds = speeds_on_the_way_mps(goal, ramp);
+    const Extent accelerations = accelerations_on_the_way_mps2(goal, ramp);
     const bool is_comfortable =
         accelerations.least >= -rules.slowing_down_mps2 && accelerations.most <= rules.speeding_up_mps2;
     if (is_comfortable && speeds.least >= least_mps && speeds.most <= speed_limit_mps) return ramp.start_mps2;
   }
-  const bool is_early = arrival.speed_mps * arrival.time_s > arrival.distance_m;
-  const std::optional<double> cruise_mps = is_early ? cruise_after_braking_mps(arrival, rules.slowing_down_mps2)
-                                                    : cruise_after_speeding_up_mps(arrival, rules.speeding_up_mps2);
+  const bool is_early = goal.speed_mps * goal.time_s > goal.distance_m;
+  const std::optional<double> cruise_mps = is_early ? cruise_after_braking_mps(goal, rules.slowing_down_mps2)
+                                                    : cruise_after_speeding_up_mps(goal, rules.speeding_up_mps2);
   const double otherwise_mps = is_early ? least_mps : speed_limit_mps;
-  return towards_mps2(rules, arrival.speed_mps,
+  return towards_mps2(rules, goal.speed_mps,
                       std::clamp(cruise_mps.value_or(otherwise_mps), least_mps, speed_limit_mps));
 }
 

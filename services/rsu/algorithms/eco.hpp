@@ -23,9 +23,6 @@ class Eco final : public RsuAlgorithm {
   void on_step(const RsuView& heard, RsuAnswer& answer) override;
 
  private:
-  void guide(const RsuView& heard, const LaneView& lane, const HeardCar& car, const Crossing& crossing,
-             RsuAnswer& answer);
-
   EcoParameters parameters_;
   ApproachAdvice advice_;
   std::vector<Crossing> plan_;

@@ -22,9 +22,6 @@ class Glosa final : public RsuAlgorithm {
   void on_step(const RsuView& heard, RsuAnswer& answer) override;
 
  private:
-  void guide(const RsuView& heard, const LaneView& lane, const HeardCar& car, const Crossing& crossing,
-             RsuAnswer& answer);
-
   GlosaParameters parameters_;
   ApproachAdvice advice_;
   std::vector<Crossing> plan_;

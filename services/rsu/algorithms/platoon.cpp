@@ -45,8 +45,8 @@ void Platoon::guide_lane(const RsuView& heard, const LaneView& lane, RsuAnswer& 
     } else if (need == Need::kGo) {
       advice_.go(car, answer);
     } else {
-      const ArrivalGoal arrival{car.distance_m, car.speed_mps, crossing.time_s - heard.time_s};
-      advice_.advise(car, smooth_arrival_mps2(rules, arrival, limit_mps, end_mps), answer);
+      const ArrivalGoal goal{car.distance_m, car.speed_mps, crossing.time_s - heard.time_s};
+      advice_.advise(car, smooth_arrival_mps2(rules, goal, limit_mps, end_mps), answer);
     }
   }
 }

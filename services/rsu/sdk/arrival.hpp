@@ -22,10 +22,10 @@ struct RampedAcceleration {
 
 /// The arrival with the least integral of a^2, its end speed free: a falls evenly to 0 at the line.
 /// Source: calculus of variations; start 3 (d - v T) / T^2.
-RampedAcceleration smoothest_arrival(const ArrivalGoal& arrival);
+RampedAcceleration smoothest_arrival(const ArrivalGoal& goal);
 /// The same with a given speed at the line: start (6 d - 2 T (2 v + v_end)) / T^2, slope (6 T (v + v_end) - 12 d) /
 /// T^3.
-RampedAcceleration smoothest_arrival(const ArrivalGoal& arrival, double end_speed_mps);
+RampedAcceleration smoothest_arrival(const ArrivalGoal& goal, double end_speed_mps);
 
 /// The least and the largest of something on the way.
 struct Extent {
@@ -33,15 +33,15 @@ struct Extent {
   double most = 0.0;
 };
 /// Speeds [m/s] of a car that drives a ramped acceleration until it arrives.
-Extent speeds_on_the_way_mps(const ArrivalGoal& arrival, const RampedAcceleration& ramp);
+Extent speeds_on_the_way_mps(const ArrivalGoal& goal, const RampedAcceleration& ramp);
 /// Accelerations [m/s2] on that way.
-Extent accelerations_on_the_way_mps2(const ArrivalGoal& arrival, const RampedAcceleration& ramp);
+Extent accelerations_on_the_way_mps2(const ArrivalGoal& goal, const RampedAcceleration& ramp);
 
 /// The speed to which a car brakes evenly at `braking_mps2` > 0, then holds, to arrive in time:
 /// v - b T + sqrt(b^2 T^2 - 2 b (v T - d)). Empty if it would be late without braking, or would have to stand.
-std::optional<double> cruise_after_braking_mps(const ArrivalGoal& arrival, double braking_mps2);
+std::optional<double> cruise_after_braking_mps(const ArrivalGoal& goal, double braking_mps2);
 /// The speed to which a car speeds up evenly at `acceleration_mps2` > 0, then holds, to arrive in time:
 /// v + a T - sqrt(a^2 T^2 - 2 a (d - v T)). Empty if it would be early without, or late even so.
-std::optional<double> cruise_after_speeding_up_mps(const ArrivalGoal& arrival, double acceleration_mps2);
+std::optional<double> cruise_after_speeding_up_mps(const ArrivalGoal& goal, double acceleration_mps2);
 
 }  // namespace lukou
