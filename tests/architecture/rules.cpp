@@ -173,7 +173,9 @@ std::string wrong_outside(const SourceFile& file, const Include& include) {
     return "a header includes " + include.name + "; declare the class, include it in the .cpp";
   }
   const bool service = file.in("services") && !file.in("services/lukou");
-  if (service && include.name.starts_with("common/process/") && !file.path.ends_with("/main.cpp")) {
+  // The main of every RSU, those of users too, is a library.
+  const bool is_main = file.path.ends_with("/main.cpp") || file.path == "services/rsu/process/run_rsu.cpp";
+  if (service && include.name.starts_with("common/process/") && !is_main) {
     return "includes " + include.name + "; of a service only its main runs, waits and logs";
   }
   if (const OnlyHeader* only = only_header(file.path, include.name); only != nullptr && include.name != only->header) {

@@ -50,8 +50,8 @@ class OwnRsu : public testing::Test {
   }
   static Finished run_python(const std::string& name, const std::string& body, const std::string& more = "") {
     write_python(name + ".py", body);
-    return shell("lukou run paper --duration 60 --quiet --json --out " + name + " --rsu '" + kPython + " " + name +
-                 ".py' " + more);
+    return shell("lukou run paper --quiet --json --out " + name + " --rsu '" + kPython + " " + name + ".py' " +
+                 (more.find("--duration") == std::string::npos ? "--duration 60 " : "") + more);
   }
   static void expect_sound(const std::string& folder, long long least_step) {
     const Finished inspection = shell("lukou inspect " + folder);
@@ -133,6 +133,21 @@ TEST_F(OwnRsu, ThatSaysAMillionThingsAtOnceIsHeardOut) {
       "flood", "heard.step == 100 and answer.advise_all(np.arange(1000000, dtype=np.uint64), np.zeros(1000000))");
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(json::parse(run.out).at("summary").at("advice_refused").at("unknown_vehicle"), 1'000'000);
+}
+
+TEST_F(OwnRsu, WrittenInCFromTheIdlAloneGivesTheTrafficOfItsPythonTwin) {
+  const Finished in_c =
+      shell("lukou run paper --duration 200 --quiet --out c_alone --rsu " LUKOU_BUILD "/tests/rsu_in_c");
+  ASSERT_EQ(in_c.code, 0) << in_c.err;
+  const Finished twin =
+      run_python("c_twin",
+                 "pass\n        for car in heard.cars.id:\n            answer.advise(int(car), 0.5, 0.2, "
+                 "lukou.Binding.FOLLOWING)",
+                 "--duration 200");
+  ASSERT_EQ(twin.code, 0) << twin.err;
+  EXPECT_EQ(
+      shell("for file in car stop road stop_time; do cmp c_alone/$file.csv c_twin/$file.csv || exit 1; done").code, 0);
+  EXPECT_GT(json::parse(shell("cat c_alone/summary.json").out).at("advice_applied").get<int>(), 0);
 }
 
 TEST_F(OwnRsu, KeepsNoViewBeyondItsStep) {
