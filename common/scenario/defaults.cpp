@@ -24,8 +24,13 @@ bool is_replaced(const Message& message, const FieldDescriptor* field) {
   return false;
 }
 
-/// A message is created when it is absent, unless it has a rule of its own: then its absence means something.
-bool is_created(const FieldDescriptor* field) { return !field->options().HasExtension(rule); }
+/// A message is created when it is absent, unless it has a rule of its own: then its absence means something. The
+/// parameters of an RSU's algorithm bear its name and are created if it is chosen.
+bool is_created(const Message& message, const FieldDescriptor* field) {
+  if (!field->options().HasExtension(rule)) return true;
+  return message.GetDescriptor() == Rsu::descriptor() &&
+         message.GetReflection()->GetString(message, Rsu::descriptor()->FindFieldByName("algorithm")) == field->name();
+}
 
 void fill(Message& message) {
   const Descriptor* type = message.GetDescriptor();
@@ -38,7 +43,7 @@ void fill(Message& message) {
         fill(*reflection->MutableRepeatedMessage(&message, field, n));
       }
     } else if (is_message) {
-      if (has(message, field) || is_created(field)) fill(*reflection->MutableMessage(&message, field));
+      if (has(message, field) || is_created(message, field)) fill(*reflection->MutableMessage(&message, field));
     } else if (!has(message, field) && has_fallback(field) && !rule_of(field).kept_absent() &&
                !is_replaced(message, field)) {
       LUKOU_EXPECT(parse_value(rule_of(field).fallback(), field, message).empty());

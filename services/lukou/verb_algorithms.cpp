@@ -11,13 +11,15 @@ namespace {
 /// Each algorithm with its parameters, as the scenario's schema documents them.
 int algorithms() {
   const auto docs = scenario::field_docs();
-  for (const std::string_view name : algorithm_names()) {
-    std::printf("%s\n", std::string(name).c_str());
-    const std::string prefix = "rsus[]." + std::string(name) + ".";
+  for (const AlgorithmDoc& algorithm : algorithm_docs()) {
+    std::printf("%s: %s\n  source: %s\n", std::string(algorithm.name).c_str(), std::string(algorithm.what).c_str(),
+                std::string(algorithm.source).c_str());
+    const std::string prefix = "rsus[]." + std::string(algorithm.name) + ".";
     for (const scenario::FieldDoc& doc : docs) {
       if (!doc.path.starts_with(prefix)) continue;
-      std::printf("  %-24s default %s %s, [%g, %g]; %s\n", doc.path.substr(prefix.size()).c_str(), doc.fallback.c_str(),
-                  doc.unit.c_str(), doc.min.value_or(0.0), doc.max.value_or(0.0), doc.source.c_str());
+      const std::string unit = doc.unit.empty() ? "" : " " + doc.unit;
+      std::printf("  %-24s default %s%s, [%g, %g]; %s\n", doc.path.substr(prefix.size()).c_str(), doc.fallback.c_str(),
+                  unit.c_str(), doc.min.value_or(0.0), doc.max.value_or(0.0), doc.source.c_str());
     }
   }
   return process::kExitDone;

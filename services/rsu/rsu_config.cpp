@@ -25,6 +25,59 @@ ArriveOnGreenParameters arrive_on_green_of(const scenario::ArriveOnGreen& from, 
           .lifetime_s = from.lifetime_s()};
 }
 
+/// Every algorithm's message but that of arrive_on_green has the same fields for these.
+template <class Message>
+ApproachRules approach_of(const Message& from, double acceleration_max_mps2) {
+  return {.acceleration_max_mps2 = acceleration_max_mps2,
+          .activation_distance_m = from.activation_distance_m(),
+          .speed_min_mps = from.speed_min_kmh() / 3.6,
+          .target_speed_share = from.target_speed_share(),
+          .speeding_up_mps2 = from.speeding_up_mps2(),
+          .slowing_down_mps2 = from.slowing_down_mps2(),
+          .first_crossing_s = from.first_crossing_s(),
+          .tail_s = from.tail_s(),
+          .slack_s = from.slack_s(),
+          .gain_time_s = from.gain_time_s(),
+          .lifetime_s = from.lifetime_s()};
+}
+
+template <class Message>
+QueueRules queue_of(const Message& from) {
+  return {.headway_s = from.headway_s(), .spacing_m = from.spacing_m(), .equipped_share = from.equipped_share()};
+}
+
+/// A message that is absent belongs to an algorithm that is not chosen: its parameters stay at their defaults.
+AlgorithmParameters parameters_of(const scenario::Rsu& from, double acceleration_max_mps2) {
+  AlgorithmParameters parameters;
+  parameters.arrive_on_green.acceleration_max_mps2 = acceleration_max_mps2;
+  if (from.has_arrive_on_green()) {
+    parameters.arrive_on_green = arrive_on_green_of(from.arrive_on_green(), acceleration_max_mps2);
+  }
+  if (from.has_eco()) {
+    parameters.eco = {
+        .approach = approach_of(from.eco(), acceleration_max_mps2), .queue = queue_of(from.eco()), .end_speed_mps = {}};
+    if (from.eco().end_speed_kmh() > 0.0) parameters.eco.end_speed_mps = from.eco().end_speed_kmh() / 3.6;
+  }
+  if (from.has_glosa()) parameters.glosa.approach = approach_of(from.glosa(), acceleration_max_mps2);
+  if (from.has_glosa_queue()) {
+    parameters.glosa_queue = {.approach = approach_of(from.glosa_queue(), acceleration_max_mps2),
+                              .queue = queue_of(from.glosa_queue())};
+  }
+  if (from.has_platoon()) {
+    parameters.platoon = {.approach = approach_of(from.platoon(), acceleration_max_mps2),
+                          .queue = queue_of(from.platoon()),
+                          .gap_s = from.platoon().gap_s(),
+                          .end_speed_mps = from.platoon().end_speed_kmh() / 3.6};
+  }
+  if (from.has_speed_harmonisation()) {
+    const scenario::SpeedHarmonisation& said = from.speed_harmonisation();
+    parameters.speed_harmonisation = {.approach = approach_of(said, acceleration_max_mps2),
+                                      .queue = queue_of(said),
+                                      .speed_change_mps2 = said.speed_change_kmh_per_s() / 3.6};
+  }
+  return parameters;
+}
+
 }  // namespace
 
 Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t rsu) {
@@ -41,12 +94,7 @@ Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t
   config.acceleration_max_mps2 = scenario.vehicles().acceleration_max_mps2();
   config.radio = scenario::radio_parameters(scenario);
   config.algorithm = from.algorithm();
-  // An RSU with another algorithm says nothing of this one: then its parameters stay at their defaults.
-  config.parameters.arrive_on_green.acceleration_max_mps2 = scenario.vehicles().acceleration_max_mps2();
-  if (from.has_arrive_on_green()) {
-    config.parameters.arrive_on_green =
-        arrive_on_green_of(from.arrive_on_green(), scenario.vehicles().acceleration_max_mps2());
-  }
+  config.parameters = parameters_of(from, config.acceleration_max_mps2);
   for (const scenario::Sensor& sensor : from.sensors()) {
     config.sensors.push_back(
         {.radar = sensor.kind() == scenario::Sensor::RADAR, .accuracy_m = sensor.position_noise_m()});

@@ -30,6 +30,31 @@ TEST(CommandLine, NamesLineAndColumnOfAMistakeAndWhatWouldBeRight) {
   EXPECT_NE(algorithm.err.find("arrive_on_green"), std::string::npos) << algorithm.err;
 }
 
+TEST(CommandLine, ListsEachAlgorithmWithItsSourceAndParameters) {
+  const Finished run = lukou({"algorithms"});
+  EXPECT_EQ(run.code, 0);
+  for (const char* name :
+       {"arrive_on_green", "eco", "glosa", "glosa_queue", "none", "platoon", "speed_harmonisation"}) {
+    EXPECT_NE(("\n" + run.out).find("\n" + std::string(name) + ": "), std::string::npos) << name;
+  }
+  EXPECT_NE(run.out.find("speed_min_kmh            default 18 km/h, [1, 60]; "), std::string::npos) << run.out;
+
+  const Finished bad = lukou({"validate", "paper", "--set", "rsus[0].glosa.speed_min_kmh=500"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_NE(bad.err.find("must be within [1, 60] km/h"), std::string::npos) << bad.err;
+}
+
+TEST(CommandLine, RunsEachAlgorithmInOneProcess) {
+  for (const char* name : {"eco", "glosa", "glosa_queue", "platoon", "speed_harmonisation"}) {
+    const TemporaryFolder folder;
+    const Finished run = lukou({"run", "paper", "--mode", "in-process", "--duration", "120", "--quiet",
+                                "--rsu-algorithm", name, "--out", folder / "r"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(content(folder / "r/scenario.textproto").find(std::string("\n  ") + name + " {"), std::string::npos)
+        << "the parameters stand with the results";
+  }
+}
+
 TEST(CommandLine, RefusesBadRequestsWithCodeTwo) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
                                                     {"rum"},

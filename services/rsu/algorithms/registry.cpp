@@ -1,6 +1,7 @@
 #include "services/rsu/algorithms/registry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <string>
 
@@ -8,6 +9,27 @@
 
 namespace lukou {
 namespace {
+
+constexpr std::array<AlgorithmDoc, 7> kAlgorithms = {{
+    {"arrive_on_green", "each car to the line at speed when its turn to cross comes; late cars are left alone",
+     "the guidance study, algorithm \"punctual\""},
+    {"eco", "each car on the trajectory with the least integral of a^2 to its crossing time",
+     "closed form of the minimum-acceleration problem; eco-approach in the literature"},
+    {"glosa", "each car, as if it were alone, to the even speed d / t that takes it to the line in green",
+     "green light optimal speed advice, as SUMO's device of that name"},
+    {"glosa_queue", "glosa that waits for the queue to discharge and keeps a headway",
+     "queue-aware GLOSA in the literature; discharge of this traffic model"},
+    {"none", "advises nobody: SPAT and MAP only", "the baseline of every comparison"},
+    {"platoon", "groups of cars cross together, a headway apart, at one speed; split at the end of green",
+     "platoon entering in the literature on vehicle-road cooperation"},
+    {"speed_harmonisation", "one speed for all cars of a lane, the least that light, queue and cars ahead ask for",
+     "lane coordination of T/CSAE 157"},
+}};
+
+template <class Algorithm, class Parameters>
+Expected<std::unique_ptr<RsuAlgorithm>> made(const Parameters& parameters) {
+  return std::unique_ptr<RsuAlgorithm>(std::make_unique<Algorithm>(parameters));
+}
 
 /// Insertions, deletions and replacements that lead from one word to the other.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
@@ -45,13 +67,22 @@ Error unknown_algorithm(std::string_view name) {
 
 }  // namespace
 
-std::vector<std::string_view> algorithm_names() { return {"arrive_on_green", "none"}; }
+std::span<const AlgorithmDoc> algorithm_docs() { return kAlgorithms; }
+
+std::vector<std::string_view> algorithm_names() {
+  std::vector<std::string_view> names;
+  for (const AlgorithmDoc& doc : kAlgorithms) names.push_back(doc.name);
+  return names;
+}
 
 Expected<std::unique_ptr<RsuAlgorithm>> make_algorithm(std::string_view name, const AlgorithmParameters& parameters) {
-  if (name == "arrive_on_green") {
-    return std::unique_ptr<RsuAlgorithm>(std::make_unique<ArriveOnGreen>(parameters.arrive_on_green));
-  }
+  if (name == "arrive_on_green") return made<ArriveOnGreen>(parameters.arrive_on_green);
+  if (name == "eco") return made<Eco>(parameters.eco);
+  if (name == "glosa") return made<Glosa>(parameters.glosa);
+  if (name == "glosa_queue") return made<Glosa>(parameters.glosa_queue);
   if (name == "none") return std::unique_ptr<RsuAlgorithm>(std::make_unique<NoGuidance>());
+  if (name == "platoon") return made<Platoon>(parameters.platoon);
+  if (name == "speed_harmonisation") return made<SpeedHarmonisation>(parameters.speed_harmonisation);
   return unknown_algorithm(name);
 }
 

@@ -1,11 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "common/core/expected.hpp"
 #include "services/rsu/algorithms/arrive_on_green.hpp"
+#include "services/rsu/algorithms/eco.hpp"
+#include "services/rsu/algorithms/glosa.hpp"
+#include "services/rsu/algorithms/platoon.hpp"
+#include "services/rsu/algorithms/speed_harmonisation.hpp"
 #include "services/rsu/sdk/rsu_algorithm.hpp"
 
 namespace lukou {
@@ -13,7 +18,21 @@ namespace lukou {
 /// The parameters of every algorithm that ships with Lukou.
 struct AlgorithmParameters {
   ArriveOnGreenParameters arrive_on_green;
+  EcoParameters eco;
+  GlosaParameters glosa;
+  GlosaParameters glosa_queue{.approach = {}, .queue = QueueRules{}};
+  PlatoonParameters platoon;
+  SpeedHarmonisationParameters speed_harmonisation;
 };
+
+/// An algorithm in a line each; docs/algorithms.md says more.
+struct AlgorithmDoc {
+  std::string_view name;
+  std::string_view what;
+  std::string_view source;
+};
+/// In the order of the alphabet.
+std::span<const AlgorithmDoc> algorithm_docs();
 
 /// Names of the algorithms, in the order of the alphabet.
 std::vector<std::string_view> algorithm_names();

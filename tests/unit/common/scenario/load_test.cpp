@@ -48,6 +48,8 @@ constexpr BadFile kBadFiles[] = {
     {"vehicles { equipped_ratio: -0.1 }", "my.textproto:1:12: vehicles.equipped_ratio is -0.1, must be within [0, 1]"},
     {"rsus { }\nrsus { arrive_on_green { headway_s: 9 } }",
      "my.textproto:2:26: rsus[1].arrive_on_green.headway_s is 9 s, must be within [0.5, 5] s"},
+    {"rsus { glosa { speed_min_kmh: 500 } }",
+     "my.textproto:1:16: rsus[0].glosa.speed_min_kmh is 500 km/h, must be within [1, 60] km/h"},
     {"driving { desired_speed_min: 0.9 desired_speed_max: 0.8 }",
      "my.textproto:1:11: driving.desired_speed_min is 0.9, must not be above desired_speed_max, 0.8"},
     // Only the upper bound stands in the file: the error points at it.
@@ -115,6 +117,19 @@ TEST(Load, GivesAnEmptyFileThePapersDefaults) {
   ASSERT_EQ(scenario.rsus_size(), 1);
   EXPECT_EQ(scenario.rsus(0).algorithm(), "arrive_on_green");
   EXPECT_EQ(scenario.rsus(0).arrive_on_green().headway_s(), 1.98);
+}
+
+TEST(Load, GivesTheChosenAlgorithmItsParametersAndNoOther) {
+  const auto result = loaded("rsus { algorithm: \"eco\" eco { headway_s: 3 } platoon { gap_s: 2 } }");
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  const Rsu& rsu = result.value().message().rsus(0);
+  EXPECT_EQ(rsu.eco().headway_s(), 3.0);
+  EXPECT_EQ(rsu.eco().speed_min_kmh(), 18.0);
+  EXPECT_EQ(rsu.platoon().gap_s(), 2.0) << "what the user gave stays";
+  EXPECT_FALSE(rsu.has_glosa());
+  const auto glosa = loaded("rsus { algorithm: \"glosa\" }");
+  ASSERT_TRUE(glosa.ok());
+  EXPECT_EQ(glosa.value().message().rsus(0).glosa().speed_min_kmh(), 18.0);
 }
 
 TEST(Load, KeepsWhatIsGivenEvenIfItIsZero) {

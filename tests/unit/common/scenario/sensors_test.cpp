@@ -94,7 +94,8 @@ constexpr Bad kBad[] = {
     {"rsus { sensors { approach: WEST position_noise_m: 21 } }",
      "my.textproto:1:33: rsus[0].sensors[0].position_noise_m is 21 m, must be within [0, 20] m"},
     {"rsus { sensors { approach: UP } }",
-     "my.textproto:1:28: `UP` is no value of approach: rsus[].sensors[].approach takes WEST, SOUTH, EAST, NORTH"},
+     "my.textproto:1:28: `UP` is no value of approach: radio.outages[].approach takes WEST, SOUTH, EAST, NORTH, ALL; "
+     "rsus[].sensors[].approach takes WEST, SOUTH, EAST, NORTH"},
     {"vehicles { positioning { noise_m: 51 } }",
      "my.textproto:1:26: vehicles.positioning.noise_m is 51 m, must be within [0, 50] m"},
     {"vehicles { positioning { noise_m: 1 correlation_s: 0 } }",

@@ -56,5 +56,37 @@ TEST(RsuConfig, RefusesAnRsuThatIsNotThere) {
   EXPECT_EQ(config.error().where, "rsus");
 }
 
+TEST(RsuConfig, TakesTheParametersOfEachAlgorithmInMetresAndSeconds) {
+  scenario::Scenario from = two_rsus();
+  scenario::Rsu& rsu = *from.mutable_rsus(0);
+  rsu.mutable_glosa()->set_speed_min_kmh(25.2);
+  rsu.mutable_glosa()->set_activation_distance_m(150.0);
+  rsu.mutable_glosa_queue()->set_headway_s(1.8);
+  rsu.mutable_glosa_queue()->set_equipped_share(0.7);
+  rsu.mutable_eco()->set_end_speed_kmh(36.0);
+  rsu.mutable_eco()->set_slack_s(0.5);
+  rsu.mutable_platoon()->set_gap_s(2.5);
+  rsu.mutable_platoon()->set_end_speed_kmh(45.0);
+  rsu.mutable_speed_harmonisation()->set_speed_change_kmh_per_s(7.2);
+  rsu.mutable_speed_harmonisation()->set_spacing_m(6.0);
+  const AlgorithmParameters parameters = rsu_config(from, 0).value().parameters;
+  EXPECT_DOUBLE_EQ(parameters.glosa.approach.speed_min_mps, 7.0);
+  EXPECT_EQ(parameters.glosa.approach.activation_distance_m, 150.0);
+  EXPECT_EQ(parameters.glosa.approach.acceleration_max_mps2, 2.5);
+  EXPECT_FALSE(parameters.glosa.queue);
+  ASSERT_TRUE(parameters.glosa_queue.queue);
+  EXPECT_EQ(parameters.glosa_queue.queue->headway_s, 1.8);
+  EXPECT_EQ(parameters.glosa_queue.queue->equipped_share, 0.7);
+  ASSERT_TRUE(parameters.eco.end_speed_mps);
+  EXPECT_DOUBLE_EQ(*parameters.eco.end_speed_mps, 10.0);
+  EXPECT_EQ(parameters.eco.approach.slack_s, 0.5);
+  EXPECT_EQ(parameters.platoon.gap_s, 2.5);
+  EXPECT_DOUBLE_EQ(parameters.platoon.end_speed_mps, 12.5);
+  EXPECT_DOUBLE_EQ(parameters.speed_harmonisation.speed_change_mps2, 2.0);
+  EXPECT_EQ(parameters.speed_harmonisation.queue.spacing_m, 6.0);
+  rsu.mutable_eco()->set_end_speed_kmh(0.0);
+  EXPECT_FALSE(rsu_config(from, 0).value().parameters.eco.end_speed_mps) << "0 = free";
+}
+
 }  // namespace
 }  // namespace lukou

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace lukou {
 namespace {
 
@@ -23,7 +25,22 @@ TEST(AlgorithmRegistry, NamesAllForAWordThatIsNearToNone) {
   const auto made = make_algorithm("max_pressure", {});
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().text().find("did you mean"), std::string::npos);
-  EXPECT_NE(made.error().text().find("arrive_on_green, none"), std::string::npos);
+  EXPECT_NE(made.error().text().find("arrive_on_green, eco, glosa, glosa_queue, none, platoon"), std::string::npos);
+}
+
+TEST(AlgorithmRegistry, SaysWhatEachIsAndWhereItComesFrom) {
+  ASSERT_EQ(algorithm_docs().size(), algorithm_names().size());
+  for (const AlgorithmDoc& doc : algorithm_docs()) {
+    EXPECT_FALSE(doc.what.empty()) << doc.name;
+    EXPECT_FALSE(doc.source.empty()) << doc.name;
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(algorithm_names()));
+}
+
+TEST(AlgorithmRegistry, DoesNotTakeGlosaForTheOneWithAQueue) {
+  const AlgorithmParameters parameters;
+  EXPECT_FALSE(parameters.glosa.queue);
+  EXPECT_TRUE(parameters.glosa_queue.queue);
 }
 
 }  // namespace
