@@ -1,6 +1,6 @@
 // How the gain of guidance degrades with the downlink: latency, independent loss, loss in bursts, for two lifetimes of
 // advice. 1800 veh/h on every approach, equipped ratio 0.7, 7400 s, the first 2000 s left out, seeds 1 to N (`--seeds
-// N`, default 3). Prints the table of docs/robustness.md. Exit code 1 if a run fails or has a collision.
+// N`, default 3). Prints the table of README.md. Exit code 1 if a run fails or has a collision.
 
 #include <array>
 #include <cstdio>
