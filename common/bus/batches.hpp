@@ -93,7 +93,7 @@ enum class AdviceFate : std::uint8_t {
   kChangedDriver = 21,    ///< used, but late or imperfectly: the driver is human
   kLate = 22,             ///< refused: it came after its life had ended
 };
-inline constexpr std::size_t kAdviceFates = 24;
+inline constexpr std::size_t kAdviceFates = 23;
 
 /// Where a car stands with guidance. The values stand on the bus.
 enum class GuidanceState : std::uint8_t {

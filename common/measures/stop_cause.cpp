@@ -9,12 +9,30 @@ constexpr std::array<std::string_view, kGuidanceStates> kGuidanceNames = {
     "not_equipped", "never_advised", "in_force",       "released", "expired",
     "rsu_unheard",  "not_complied",  "past_stop_line", "reacting"};
 
-/// By AdviceFate; the last one is not given.
-constexpr std::array<std::string_view, kAdviceFates> kFateNames = {
-    "applied",          "changed_limit", "changed_guard",   "changed_following", "changed_red",    "past_stop_line",
-    "expired",          "superseded",    "unknown_vehicle", "malformed",         "out_of_limit",   "lost_random",
-    "lost_burst",       "lost_range",    "stale",           "duplicate",         "lost_path_loss", "lost_collision",
-    "lost_half_duplex", "lost_outage",   "not_complied",    "changed_driver",    "late",           "unused"};
+/// By AdviceFate.
+constexpr std::array<std::string_view, kAdviceFates> kFateNames = {"applied",
+                                                                   "changed_limit",
+                                                                   "changed_guard",
+                                                                   "changed_following",
+                                                                   "changed_red",
+                                                                   "past_stop_line",
+                                                                   "expired",
+                                                                   "superseded",
+                                                                   "unknown_vehicle",
+                                                                   "malformed",
+                                                                   "out_of_limit",
+                                                                   "lost_random",
+                                                                   "lost_burst",
+                                                                   "lost_range",
+                                                                   "stale",
+                                                                   "duplicate",
+                                                                   "lost_path_loss",
+                                                                   "lost_collision",
+                                                                   "lost_half_duplex",
+                                                                   "lost_outage",
+                                                                   "not_complied",
+                                                                   "changed_driver",
+                                                                   "late"};
 
 /// Whether the car stopped because of the one ahead.
 bool queued(const StopFacts& facts) {
