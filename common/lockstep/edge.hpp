@@ -79,13 +79,6 @@ class Edge {
     return &current_;
   }
 
-  /// The epoch heard in step k; 0 = silent.
-  [[nodiscard]] std::uint32_t heard_epoch(Step k) const {
-    const Step need = needed(k);
-    const Interval* interval = need < 0 ? nullptr : holding(need);
-    return interval == nullptr ? 0 : interval->epoch;
-  }
-
   /// The producer of `epoch` is gone: nothing is awaited beyond what is in hand. Returns the first step not heard.
   Step fence(std::uint32_t epoch) {
     Interval* interval = find(epoch);
@@ -96,11 +89,6 @@ class Edge {
     }
     if (interval->cut == kNever) interval->cut = interval->next < 0 ? interval->from : interval->next;
     return interval->cut;
-  }
-
-  /// As fence, with a cut known from a record.
-  void fence_at(std::uint32_t epoch, Step cut) {
-    if (Interval* interval = find(epoch)) interval->cut = cut;
   }
 
   /// A consumer that takes part from its step k on: the first batch that it needs of a producer that never stopped.

@@ -41,11 +41,9 @@ TEST(Edge, NeedsTheBatchOfTheStepBeforeWithADelayOfOneAndNothingAtFirst) {
   Edge<Batch> edge(kStepBefore);
   EXPECT_TRUE(edge.ready(0));
   EXPECT_EQ(taken(edge, 0), -1);
-  EXPECT_EQ(edge.heard_epoch(0), 0U) << "nothing can be heard yet";
   EXPECT_FALSE(edge.ready(1));
   EXPECT_EQ(offer(edge, 0), "");
   EXPECT_TRUE(edge.ready(1));
-  EXPECT_EQ(edge.heard_epoch(1), 1U);
   EXPECT_EQ(taken(edge, 1), 0);
 }
 
@@ -65,7 +63,6 @@ TEST(Edge, WithAStrideTakesEachBatchOnceAndKeepsItForTheStepsBetween) {
   for (Step k = 1; k <= 10; ++k) {
     EXPECT_TRUE(edge.ready(k)) << k;
     EXPECT_EQ(taken(edge, k), -1) << k;
-    EXPECT_EQ(edge.heard_epoch(k), 1U) << k;
   }
   EXPECT_FALSE(edge.ready(11));
   EXPECT_EQ(offer(edge, 5), "");
@@ -112,13 +109,11 @@ TEST(Edge, BeginsForALateConsumerWithTheBatchThatItsFirstStepNeeds) {
 TEST(Edge, IsSilentUntilItIsAttachedAndTakesEarlyBatchesThen) {
   Edge<Batch> edge(kStepBefore, false);
   EXPECT_TRUE(edge.ready(500));
-  EXPECT_EQ(edge.heard_epoch(500), 0U);
   EXPECT_EQ(offer(edge, 31), "");
   EXPECT_EQ(offer(edge, 32), "");
   EXPECT_TRUE(edge.ready(32)) << "not attached: nobody waits for it";
   EXPECT_EQ(taken(edge, 32), -1);
   EXPECT_TRUE(edge.attach(1, 31).ok());
-  EXPECT_EQ(edge.heard_epoch(31), 0U) << "its first batch is that of step 31";
   EXPECT_EQ(taken(edge, 31), -1);
   EXPECT_EQ(taken(edge, 32), 31);
   EXPECT_EQ(taken(edge, 33), 32);
@@ -141,9 +136,7 @@ TEST(EdgeFence, CutsBehindTheLastBatchInHandAndGoesOnSilent) {
   EXPECT_EQ(edge.fence(1), 5) << "0..4 are in hand: 5 is the first not heard";
   EXPECT_EQ(edge.fence(1), 5) << "said twice";
   for (Step k = 3; k <= 5; ++k) EXPECT_EQ(taken(edge, k), k - 1);
-  EXPECT_EQ(edge.heard_epoch(5), 1U);
   EXPECT_TRUE(edge.ready(6));
-  EXPECT_EQ(edge.heard_epoch(6), 0U);
   EXPECT_EQ(taken(edge, 6), -1);
 }
 
@@ -154,7 +147,6 @@ TEST(EdgeFence, IgnoresLaterBatchesOfThatLife) {
   EXPECT_EQ(offer(edge, 1), "") << "of a stopped process that woke up";
   EXPECT_EQ(offer(edge, 17), "") << "not even a gap counts";
   EXPECT_TRUE(edge.ready(2));
-  EXPECT_EQ(edge.heard_epoch(2), 0U);
   EXPECT_EQ(taken(edge, 2), -1);
 }
 
@@ -162,13 +154,11 @@ TEST(EdgeFence, OfALifeWithoutABatchCutsAtItsBegin) {
   Edge<Batch> first(kStepBefore);
   EXPECT_EQ(first.fence(1), 0);
   EXPECT_TRUE(first.ready(1));
-  EXPECT_EQ(first.heard_epoch(1), 0U);
 
   Edge<Batch> later(kStepBefore, false);
   EXPECT_TRUE(later.attach(2, 40).ok());
   EXPECT_EQ(later.fence(2), 40);
   EXPECT_TRUE(later.ready(41));
-  EXPECT_EQ(later.heard_epoch(41), 0U);
 }
 
 TEST(EdgeFence, BeforeTheAttachMakesAnEmptyLife) {
@@ -178,7 +168,6 @@ TEST(EdgeFence, BeforeTheAttachMakesAnEmptyLife) {
   EXPECT_EQ(edge.fence(2), kNever) << "lost before it took part: none of its steps is heard";
   EXPECT_EQ(offer(edge, 61, 2), "");
   EXPECT_TRUE(edge.ready(61));
-  EXPECT_EQ(edge.heard_epoch(61), 0U);
   Edge<Batch> strided({.delay = 6, .stride = 5, .initial = true});
   EXPECT_EQ(strided.fence(2), kNever);
   EXPECT_EQ(offer(strided, 60, 2), "") << "ignored, whatever the stride";
@@ -186,7 +175,6 @@ TEST(EdgeFence, BeforeTheAttachMakesAnEmptyLife) {
   EXPECT_TRUE(edge.attach(3, 80).ok());
   EXPECT_EQ(offer(edge, 62, 2), "");
   EXPECT_EQ(offer(edge, 80, 3), "");
-  EXPECT_EQ(edge.heard_epoch(81), 3U);
   EXPECT_EQ(taken(edge, 81), 80);
 }
 
@@ -197,10 +185,6 @@ TEST(EdgeFence, LetsTheNextLifeBeginWhereItIsAttached) {
   EXPECT_TRUE(edge.attach(2, 30).ok());
   EXPECT_EQ(offer(edge, 10, 1), "");
   EXPECT_EQ(offer(edge, 30, 2), "");
-  for (Step k = 0; k <= 40; ++k) {
-    const std::uint32_t heard = k >= 1 && k <= 10 ? 1U : k >= 31 ? 2U : 0U;
-    EXPECT_EQ(edge.heard_epoch(k), heard) << k;
-  }
   for (Step k = 0; k <= 10; ++k) EXPECT_EQ(taken(edge, k), k - 1);
   for (Step k = 11; k <= 30; ++k) {
     EXPECT_TRUE(edge.ready(k)) << k;
@@ -209,15 +193,6 @@ TEST(EdgeFence, LetsTheNextLifeBeginWhereItIsAttached) {
   EXPECT_TRUE(edge.ready(31));
   EXPECT_EQ(taken(edge, 31), 30);
   EXPECT_FALSE(edge.ready(32));
-}
-
-TEST(EdgeFence, KnownFromARecordCutsWhereTheRecordSays) {
-  Edge<Batch> edge(kStepBefore);
-  for (Step step = 0; step <= 9; ++step) EXPECT_EQ(offer(edge, step), "");
-  edge.fence_at(1, 4);
-  for (Step k = 1; k <= 4; ++k) EXPECT_EQ(taken(edge, k), k - 1);
-  EXPECT_EQ(edge.heard_epoch(5), 0U);
-  EXPECT_EQ(taken(edge, 5), -1);
 }
 
 TEST(EdgeDeathTest, RefusesToTakeWhatIsNotReady) {
