@@ -14,7 +14,6 @@ using wire::varint_key;
 
 constexpr std::int64_t kAccelerationUnavailable = 2001;
 constexpr std::int64_t kForwardGears = 2;
-constexpr std::int64_t kPassengerCar = 10;
 constexpr std::int64_t kPedalOff = 1;
 constexpr std::int64_t kPedalOn = 2;
 
@@ -42,8 +41,7 @@ struct Raw {
   std::int64_t acceleration = kAbsent;
   std::int64_t pedal = kAbsent;
   bool has_brakes = false;
-  std::int64_t width_cm = kAbsent;
-  std::int64_t length_cm = kAbsent;
+  wire::RawSize size;
   std::int64_t vehicle_class = kAbsent;
   std::int64_t semi_major = kAbsent;
   std::int64_t semi_minor = kAbsent;
@@ -56,15 +54,6 @@ void read_brakes(std::span<const std::uint8_t> bytes, Raw& raw) {
   wire::Reader reader(bytes);
   while (reader.next()) {
     if (reader.field() == varint_key(1)) raw.pedal = reader.value();
-  }
-  raw.broken = raw.broken || reader.broken();
-}
-
-void read_size(std::span<const std::uint8_t> bytes, Raw& raw) {
-  wire::Reader reader(bytes);
-  while (reader.next()) {
-    if (reader.field() == varint_key(1)) raw.width_cm = reader.value();
-    if (reader.field() == varint_key(2)) raw.length_cm = reader.value();
   }
   raw.broken = raw.broken || reader.broken();
 }
@@ -113,7 +102,7 @@ Raw read(std::span<const std::uint8_t> payload) {
         read_brakes(reader.message(), raw);
         break;
       case message_key(10):
-        read_size(reader.message(), raw);
+        wire::read_size(reader.message(), raw.size);
         break;
       case varint_key(11):
         raw.vehicle_class = reader.value();
@@ -152,11 +141,8 @@ void append(Frames& frames, const Envelope& envelope, const BasicSafety& message
   const std::size_t brakes = writer.open(9);
   writer.unsigned_field(1, unsigned_value(message.braking ? kPedalOn : kPedalOff));
   writer.close(brakes);
-  const std::size_t size = writer.open(10);
-  writer.unsigned_field(1, unsigned_value(to_units(message.width_m, 100.0, 0, 1023, 0)));
-  writer.unsigned_field(2, unsigned_value(to_units(message.length_m, 100.0, 0, 4095, 0)));
-  writer.close(size);
-  writer.unsigned_field(11, unsigned_value(kPassengerCar));
+  wire::write_size(writer, 10, message.width_m, message.length_m);
+  writer.unsigned_field(11, wire::kPassengerCar);
   std::uint32_t bits = kWireBits;
   if (message.accuracy_m) {
     const std::uint64_t axis =
@@ -174,7 +160,7 @@ void append(Frames& frames, const Envelope& envelope, const BasicSafety& message
 Expected<BasicSafety> decode_bsm(std::span<const std::uint8_t> payload) {
   const Raw raw = read(payload);
   wire::Check check;
-  check.that("the encoding", !raw.broken);
+  check.that("the encoding", !raw.broken && !raw.size.broken);
   check.required("msg_count", raw.count, 0, wire::kCountMax);
   check.that("id", raw.has_id);
   check.required("second_mark_ms", raw.second_mark_ms, 0, wire::kSecondMarkMax);
@@ -186,8 +172,8 @@ Expected<BasicSafety> decode_bsm(std::span<const std::uint8_t> payload) {
                  kAccelerationUnavailable);
   check.that("brakes", raw.has_brakes);
   check.optional("brakes.pedal", raw.pedal, 0, kPedalOn);
-  check.required("size.width_cm", raw.width_cm, 0, 1023);
-  check.required("size.length_cm", raw.length_cm, 0, 4095);
+  check.required("size.width_cm", raw.size.width_cm, 0, wire::kWidthMax_cm);
+  check.required("size.length_cm", raw.size.length_cm, 0, wire::kLengthMax_cm);
   check.required("vehicle_class", raw.vehicle_class, 0, 255);
   if (raw.has_accuracy) {
     check.required("accuracy.semi_major_5cm", raw.semi_major, 0, kAccuracyUnavailable);
@@ -210,8 +196,8 @@ Expected<BasicSafety> decode_bsm(std::span<const std::uint8_t> payload) {
     message.acceleration_mps2 = static_cast<double>(raw.acceleration) / 100.0;
   }
   message.braking = raw.pedal == kPedalOn;
-  message.width_m = static_cast<double>(raw.width_cm) / 100.0;
-  message.length_m = static_cast<double>(raw.length_cm) / 100.0;
+  message.width_m = static_cast<double>(raw.size.width_cm) / 100.0;
+  message.length_m = static_cast<double>(raw.size.length_cm) / 100.0;
   if (raw.has_accuracy && raw.semi_major != kAccuracyUnavailable) {
     message.accuracy_m = static_cast<double>(raw.semi_major) / kAccuracyUnitsPerM;
   }

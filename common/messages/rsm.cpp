@@ -18,7 +18,6 @@ using wire::varint_key;
 
 constexpr std::int64_t kTypeMax = 4;
 constexpr std::int64_t kSourceMax = 7;
-constexpr std::int64_t kPassengerCar = 10;
 /// Accuracies of the classes 1 to 15 [m]; class 0 is "unavailable".
 constexpr std::array<double, 15> kAccuracy_m = {500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0,
                                                 1.0,   0.5,   0.2,   0.1,  0.05, 0.02, 0.01};
@@ -63,11 +62,8 @@ void write_participant(wire::Writer& writer, const Participant& participant) {
   writer.unsigned_field(7, unsigned_value(accuracy_class(participant.accuracy_m)));
   writer.unsigned_field(8, unsigned_value(wire::speed_units(participant.speed_mps)));
   writer.unsigned_field(9, unsigned_value(wire::heading_units(participant.heading_rad)));
-  const std::size_t size = writer.open(10);
-  writer.unsigned_field(1, unsigned_value(to_units(participant.width_m, 100.0, 0, 1023, 0)));
-  writer.unsigned_field(2, unsigned_value(to_units(participant.length_m, 100.0, 0, 4095, 0)));
-  writer.close(size);
-  writer.unsigned_field(11, unsigned_value(kPassengerCar));
+  wire::write_size(writer, 10, participant.width_m, participant.length_m);
+  writer.unsigned_field(11, wire::kPassengerCar);
   writer.close(begin);
 }
 
@@ -81,20 +77,10 @@ struct RawParticipant {
   std::int64_t confidence = kAbsent;
   std::int64_t speed = kAbsent;
   std::int64_t heading = kAbsent;
-  std::int64_t width_cm = kAbsent;
-  std::int64_t length_cm = kAbsent;
+  wire::RawSize size;
   std::int64_t vehicle_class = kAbsent;
   bool broken = false;
 };
-
-void read_size(std::span<const std::uint8_t> bytes, RawParticipant& raw) {
-  wire::Reader reader(bytes);
-  while (reader.next()) {
-    if (reader.field() == varint_key(1)) raw.width_cm = reader.value();
-    if (reader.field() == varint_key(2)) raw.length_cm = reader.value();
-  }
-  raw.broken = raw.broken || reader.broken();
-}
 
 RawParticipant read_participant(std::span<const std::uint8_t> bytes) {
   RawParticipant raw;
@@ -129,7 +115,7 @@ RawParticipant read_participant(std::span<const std::uint8_t> bytes) {
         raw.heading = reader.value();
         break;
       case message_key(10):
-        read_size(reader.message(), raw);
+        wire::read_size(reader.message(), raw.size);
         break;
       case varint_key(11):
         raw.vehicle_class = reader.value();
@@ -145,7 +131,7 @@ RawParticipant read_participant(std::span<const std::uint8_t> bytes) {
 /// Adds the participant to the message, or says in `check` what is wrong with it.
 void take_participant(const RawParticipant& raw, const wire::RawPosition& reference, RoadsideSafety& message,
                       wire::Check& check) {
-  check.that("the encoding of a participant", !raw.broken);
+  check.that("the encoding of a participant", !raw.broken && !raw.size.broken);
   check.required("participant.type", raw.type, 0, kTypeMax);
   check.required("participant.id", raw.number, 0, 65'535);
   check.required("participant.source", raw.source, 0, kSourceMax);
@@ -154,8 +140,8 @@ void take_participant(const RawParticipant& raw, const wire::RawPosition& refere
   check.required("participant.position_confidence", raw.confidence, 0, kAccuracy_m.size());
   check.required("participant.speed_2cmps", raw.speed, 0, wire::kSpeedUnavailable);
   check.required("participant.heading_80th_deg", raw.heading, 0, wire::kHeadingUnavailable);
-  check.required("participant.size.width_cm", raw.width_cm, 0, 1023);
-  check.required("participant.size.length_cm", raw.length_cm, 0, 4095);
+  check.required("participant.size.width_cm", raw.size.width_cm, 0, wire::kWidthMax_cm);
+  check.required("participant.size.length_cm", raw.size.length_cm, 0, wire::kLengthMax_cm);
   check.optional("participant.vehicle_class", raw.vehicle_class, 0, 255);
   if (!check.ok()) return;
   const auto centre = wire::point_at(reference, raw.position);
@@ -170,8 +156,8 @@ void take_participant(const RawParticipant& raw, const wire::RawPosition& refere
                           .accuracy_m = {},
                           .speed_mps = wire::speed_mps(raw.speed),
                           .heading_rad = wire::heading_rad(raw.heading),
-                          .width_m = static_cast<double>(raw.width_cm) / 100.0,
-                          .length_m = static_cast<double>(raw.length_cm) / 100.0};
+                          .width_m = static_cast<double>(raw.size.width_cm) / 100.0,
+                          .length_m = static_cast<double>(raw.size.length_cm) / 100.0};
   if (raw.confidence > 0) participant.accuracy_m = kAccuracy_m[static_cast<std::size_t>(raw.confidence - 1)];
   message.participants.push_back(participant);
 }

@@ -127,6 +127,25 @@ void write_acceleration(Writer& writer, std::uint32_t field, std::int64_t longit
   writer.close(begin);
 }
 
+void write_size(Writer& writer, std::uint32_t field, double width_m, double length_m) {
+  const auto units = [](double metres, std::int64_t most_cm) {
+    return static_cast<std::uint64_t>(to_units(metres, 100.0, 0, most_cm, 0));
+  };
+  const std::size_t begin = writer.open(field);
+  writer.unsigned_field(1, units(width_m, kWidthMax_cm));
+  writer.unsigned_field(2, units(length_m, kLengthMax_cm));
+  writer.close(begin);
+}
+
+void read_size(std::span<const std::uint8_t> bytes, RawSize& size) {
+  Reader reader(bytes);
+  while (reader.next()) {
+    if (reader.field() == varint_key(1)) size.width_cm = reader.value();
+    if (reader.field() == varint_key(2)) size.length_cm = reader.value();
+  }
+  size.broken = size.broken || reader.broken();
+}
+
 void finish_frame(Frames& frames, const Envelope& envelope, FrameKind kind, std::uint32_t wire_bytes) {
   frames.sender.push_back(envelope.sender);
   frames.sequence.push_back(envelope.sequence);

@@ -180,6 +180,20 @@ std::optional<PlanePoint> point_at(const RawPosition& reference, const RawPositi
 std::int64_t read_acceleration(std::span<const std::uint8_t> bytes);
 void write_acceleration(Writer& writer, std::uint32_t field, std::int64_t longitudinal_cmps2);
 
+inline constexpr std::uint64_t kPassengerCar = 10;  ///< vehicle class
+inline constexpr std::int64_t kWidthMax_cm = 1023;
+inline constexpr std::int64_t kLengthMax_cm = 4095;
+
+/// A VehicleSize as it came.
+struct RawSize {
+  std::int64_t width_cm = kAbsent;
+  std::int64_t length_cm = kAbsent;
+  bool broken = false;
+};
+/// Saturated; 0, unavailable, for what is not a number.
+void write_size(Writer& writer, std::uint32_t field, double width_m, double length_m);
+void read_size(std::span<const std::uint8_t> bytes, RawSize& size);
+
 /// Closes a frame whose payload has been appended.
 void finish_frame(Frames& frames, const Envelope& envelope, FrameKind kind, std::uint32_t wire_bytes);
 

@@ -134,8 +134,7 @@ Reception Modem::receive(const Hop& hop) const {
 std::uint64_t Modem::link_of(const Hop& hop) const {
   Link& kept = links_.of(hop.sender + 0x9e37'79b9'7f4a'7c15 * hop.receiver);
   if (kept.epoch == hop.epoch && kept.sender == hop.sender && kept.receiver == hop.receiver) return kept.number;
-  // Two links share a number with a probability of 2^-64. A later start of an RSU has links of its own: its sequence
-  // numbers begin again.
+  // Two links share a number with a probability of 2^-64. A later start of an RSU has links of its own.
   std::uint64_t number = mixed(seed_, kReceiver, mixed(seed_, kSender, hop.sender) ^ hop.receiver);
   if (hop.epoch > 1) number = mixed(seed_, kEpoch, number ^ hop.epoch);
   kept = {.sender = hop.sender, .receiver = hop.receiver, .epoch = hop.epoch, .number = number};

@@ -73,6 +73,12 @@ Error unreadable(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  split(line, cells);
+  return cells;
+}
+
 Expected<TableScan> scan_table(const std::filesystem::path& file, const RowCheck& check) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return unreadable(file);

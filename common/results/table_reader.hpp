@@ -21,6 +21,9 @@ struct TableScan {
   std::string wrong;            ///< what is wrong with the row after the good ones; empty if none is or if it is torn
 };
 
+/// The cells of a line, parts of it.
+std::vector<std::string_view> cells_of(std::string_view line);
+
 /// Judges a row: its cells, and its number from 1. Returns what is wrong with it, or nothing.
 using RowCheck = std::function<std::string(const std::vector<std::string_view>& cells, std::int64_t row)>;
 

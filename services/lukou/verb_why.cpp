@@ -1,18 +1,15 @@
-#include <cstdio>
 #include <memory>
 
 #include "common/process/environment.hpp"
 #include "services/lukou/report/why.hpp"
+#include "services/lukou/scenario_arguments.hpp"
 #include "services/lukou/verbs.hpp"
 
 namespace lukou {
 namespace {
 
 int why(const report::WhyQuestion& question) {
-  if (auto done = report::answer_why(question); !done) {
-    std::fprintf(stderr, "%s\n", done.error().text().c_str());
-    return process::kExitUsage;
-  }
+  if (auto done = report::answer_why(question); !done) return report_errors(done.error());
   return process::kExitDone;
 }
 

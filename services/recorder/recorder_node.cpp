@@ -72,13 +72,14 @@ Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, 
   auto events =
       results::EventTables::create(folder, {.stops = config.record_stops, .guidance = config.record_guidance});
   if (!events) return events.error();
-  return RecorderNode(scenario, std::move(folder), std::move(tables).value(), std::move(events).value());
+  return RecorderNode(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
+                      std::move(events).value());
 }
 
-RecorderNode::RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables,
-                           results::EventTables events)
-    : config_(recorder_config(scenario)),
-      scenario_hash_(scenario::hash(scenario)),
+RecorderNode::RecorderNode(const RecorderConfig& config, std::string scenario_hash, std::filesystem::path folder,
+                           results::RunTables tables, results::EventTables events)
+    : config_(config),
+      scenario_hash_(std::move(scenario_hash)),
       folder_(std::move(folder)),
       tables_(std::move(tables)),
       events_(std::move(events)),

@@ -43,8 +43,8 @@ class RecorderNode {
   Expected<Done> close(const std::string& ended_by, const std::string& culprit);
 
  private:
-  RecorderNode(const scenario::Resolved& scenario, std::filesystem::path folder, results::RunTables tables,
-               results::EventTables events);
+  RecorderNode(const RecorderConfig& config, std::string scenario_hash, std::filesystem::path folder,
+               results::RunTables tables, results::EventTables events);
   void add_rows();
   void add_events(const TrafficBatch& traffic);
   /// Rows of radio.csv for the second that ends now.

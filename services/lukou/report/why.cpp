@@ -81,16 +81,6 @@ Json row_json(const Cells& names, const Cells& cells) {
   return row;
 }
 
-Cells split(std::string_view line) {
-  Cells cells;
-  for (std::size_t from = 0;;) {
-    const std::size_t to = line.find(',', from);
-    cells.push_back(line.substr(from, to - from));
-    if (to == std::string_view::npos) return cells;
-    from = to + 1;
-  }
-}
-
 /// Reads a table once, prints rows as they come, and adds up.
 class Answer {
  public:
@@ -107,7 +97,7 @@ class Answer {
                                                   "`"};
     }
     if (const auto known = check_name(); !known) return known;
-    const Cells names = split(layout_.columns);
+    const Cells names = results::cells_of(layout_.columns);
     const auto first = results::scan_table(table, [](const auto&, std::int64_t) { return std::string("later"); });
     if (!first) return first.error();
     if (first.value().columns != layout_.columns) {

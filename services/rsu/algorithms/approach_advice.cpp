@@ -20,15 +20,12 @@ Need need_of(const ApproachRules& rules, const LaneView& lane, const Crossing& c
   return lane.aspect == Aspect::kGreen ? Need::kNothing : Need::kGo;
 }
 
-ApproachAdvice::ApproachAdvice(const ApproachRules& rules) : rules_(rules) {
+ApproachAdvice::ApproachAdvice(const ApproachRules& rules) : rules_(rules), cars_(rules.lifetime_s) {
   LUKOU_EXPECT(rules.acceleration_max_mps2 > 0.0 && rules.gain_time_s > 0.0);
 }
 
 void ApproachAdvice::advise(const HeardCar& car, double acceleration_mps2, RsuAnswer& answer) {
-  answer.advise(car.id, {.acceleration_mps2 = carriable_mps2(acceleration_mps2, rules_.acceleration_max_mps2),
-                         .lifetime = std::max<Step>(1, step_at_or_after(rules_.lifetime_s)),
-                         .binding = Binding::kFollowing});
-  advised_now_.push_back(car.id);
+  cars_.advise(car, carriable_mps2(acceleration_mps2, rules_.acceleration_max_mps2), answer);
 }
 
 void ApproachAdvice::go(const HeardCar& car, RsuAnswer& answer) {
@@ -37,10 +34,6 @@ void ApproachAdvice::go(const HeardCar& car, RsuAnswer& answer) {
   } else {
     advise(car, rules_.acceleration_max_mps2, answer);
   }
-}
-
-void ApproachAdvice::release(const HeardCar& car, RsuAnswer& answer) const {
-  if (std::ranges::binary_search(advised_, car.id)) answer.release(car.id);
 }
 
 std::optional<ArrivalGoal> ApproachAdvice::goal_of(const RsuView& heard, const LaneView& lane, const HeardCar& car,
@@ -57,12 +50,6 @@ std::optional<ArrivalGoal> ApproachAdvice::goal_of(const RsuView& heard, const L
       return ArrivalGoal{car.distance_m, car.speed_mps, crossing.time_s - heard.time_s};
   }
   return std::nullopt;
-}
-
-void ApproachAdvice::end_step() {
-  std::ranges::sort(advised_now_);
-  std::swap(advised_, advised_now_);
-  advised_now_.clear();
 }
 
 double even_speed_mps(const ApproachRules& rules, const ArrivalGoal& goal, double speed_limit_mps) {

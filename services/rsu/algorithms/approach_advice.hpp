@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "services/rsu/algorithms/approach_rules.hpp"
 #include "services/rsu/algorithms/crossing_plan.hpp"
+#include "services/rsu/algorithms/guided_cars.hpp"
 #include "services/rsu/sdk/arrival.hpp"
 #include "services/rsu/sdk/rsu_answer.hpp"
 
@@ -29,18 +29,17 @@ class ApproachAdvice {
   /// so far away that none brakes for red is released instead.
   void go(const HeardCar& car, RsuAnswer& answer);
   /// Only a car that was advised in the step before is told.
-  void release(const HeardCar& car, RsuAnswer& answer) const;
+  void release(const HeardCar& car, RsuAnswer& answer) const { cars_.release(car, answer); }
   /// Says what a planned car needs that is near enough, but for one that is to be delayed: its goal comes back. All
   /// others are released.
   std::optional<ArrivalGoal> goal_of(const RsuView& heard, const LaneView& lane, const HeardCar& car,
                                      const Crossing& crossing, RsuAnswer& answer);
   /// After the last word of a step.
-  void end_step();
+  void end_step() { cars_.end_step(); }
 
  private:
   ApproachRules rules_;
-  std::vector<TemporaryId> advised_;  ///< in the step before, by id
-  std::vector<TemporaryId> advised_now_;
+  GuidedCars cars_;
 };
 
 /// The even speed that brings the car to the line in time, d / t, within [speed_min, `speed_limit_mps`].

@@ -18,16 +18,15 @@ constexpr int kBisections = 11;
 
 }  // namespace
 
-ArriveOnGreen::ArriveOnGreen(const ArriveOnGreenParameters& parameters) : parameters_(parameters) {
+ArriveOnGreen::ArriveOnGreen(const ArriveOnGreenParameters& parameters)
+    : parameters_(parameters), cars_(parameters.lifetime_s) {
   LUKOU_EXPECT(parameters.acceleration_max_mps2 > 0.0 && parameters.gain_time_s > 0.0);
   go_mps2_ = carriable_mps2(parameters.acceleration_max_mps2, parameters.acceleration_max_mps2);
 }
 
 void ArriveOnGreen::on_step(const RsuView& heard, RsuAnswer& answer) {
-  advised_now_.clear();
   for (const LaneView& lane : heard.lanes) guide_lane(heard, lane, answer);
-  std::ranges::sort(advised_now_);
-  std::swap(advised_, advised_now_);
+  cars_.end_step();
 }
 
 void ArriveOnGreen::guide_lane(const RsuView& heard, const LaneView& lane, RsuAnswer& answer) {
@@ -43,14 +42,14 @@ void ArriveOnGreen::guide_lane(const RsuView& heard, const LaneView& lane, RsuAn
     const double braking_m = car.speed_mps * car.speed_mps / (2 * p.acceleration_max_mps2);
     if (lane.aspect != Aspect::kGreen && braking_m > car.distance_m) {  // committed: it crosses anyway
       before_s = std::max(earliest_s, before_s + kCommittedHeadway_s);
-      release(car, answer);
+      cars_.release(car, answer);
       continue;
     }
     double crossing_s = std::max(earliest_s, before_s + p.headway_s);
     const std::optional<GreenWindow> green = green_at_or_after(lane, crossing_s, p.tail_s);
     if (!green) {  // no green is known that late
       before_s = crossing_s;
-      release(car, answer);
+      cars_.release(car, answer);
       continue;
     }
     crossing_s = std::max(crossing_s, green->begin_s + p.first_crossing_s);
@@ -62,15 +61,15 @@ void ArriveOnGreen::guide_lane(const RsuView& heard, const LaneView& lane, RsuAn
       const double into_green_s = std::max(0.0, crossing_s - green->begin_s - p.first_crossing_s);
       const double final_mps = std::min(target_mps, p.first_speed_mps + p.speed_ramp_mps2 * into_green_s);
       if (const auto acceleration_mps2 = acceleration_for(car, final_mps, crossing_s - now_s)) {
-        advise(car, *acceleration_mps2, answer);
+        cars_.advise(car, *acceleration_mps2, answer);
         continue;
       }
       go = go || is_to_come;
     }
     if (go) {
-      advise(car, go_mps2_, answer);
+      cars_.advise(car, go_mps2_, answer);
     } else {
-      release(car, answer);
+      cars_.release(car, answer);
     }
   }
 }
@@ -100,17 +99,6 @@ std::optional<double> ArriveOnGreen::acceleration_for(const HeardCar& car, doubl
   const double most_mps2 = std::min(parameters_.rates.speeding_up_mps2, go_mps2_);
   const double least_mps2 = -std::min(parameters_.rates.slowing_down_mps2, go_mps2_);
   return std::clamp((cruise_mps - car.speed_mps) / parameters_.gain_time_s, least_mps2, most_mps2);
-}
-
-void ArriveOnGreen::advise(const HeardCar& car, double acceleration_mps2, RsuAnswer& answer) {
-  answer.advise(car.id, {.acceleration_mps2 = acceleration_mps2,
-                         .lifetime = std::max<Step>(1, step_at_or_after(parameters_.lifetime_s)),
-                         .binding = Binding::kFollowing});
-  advised_now_.push_back(car.id);
-}
-
-void ArriveOnGreen::release(const HeardCar& car, RsuAnswer& answer) const {
-  if (std::ranges::binary_search(advised_, car.id)) answer.release(car.id);
 }
 
 }  // namespace lukou

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "services/rsu/algorithms/approach_time.hpp"
+#include "services/rsu/algorithms/guided_cars.hpp"
 #include "services/rsu/sdk/rsu_algorithm.hpp"
 
 namespace lukou {
@@ -39,13 +39,10 @@ class ArriveOnGreen final : public RsuAlgorithm {
   /// The acceleration that brings the car to the line in `time_to_line_s`; empty = it is late already.
   [[nodiscard]] std::optional<double> acceleration_for(const HeardCar& car, double final_mps,
                                                        double time_to_line_s) const;
-  void advise(const HeardCar& car, double acceleration_mps2, RsuAnswer& answer);
-  void release(const HeardCar& car, RsuAnswer& answer) const;
 
   ArriveOnGreenParameters parameters_;
-  double go_mps2_;                    ///< the largest acceleration that a message can carry and every car can take
-  std::vector<TemporaryId> advised_;  ///< cars with an advice of the step before, by id
-  std::vector<TemporaryId> advised_now_;
+  double go_mps2_;  ///< the largest acceleration that a message can carry and every car can take
+  GuidedCars cars_;
 };
 
 }  // namespace lukou
