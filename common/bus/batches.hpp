@@ -54,6 +54,15 @@ struct RoadsideBatch {
   ReceptionReport reception;            ///< uplink; empty under the ideal radio
 };
 
+/// RSU to signal controller: the greens that it asks for at t_step. Only in a run with signals.actuation.
+struct RequestBatch {
+  std::uint32_t rsu = 0;
+  std::uint32_t epoch = 1;
+  Step step = 0;
+  std::vector<std::uint16_t> lanes;  ///< bit n = lane n in the order WL ... NR; no request or one
+  std::vector<Step> lifetime;        ///< steps from `step` on
+};
+
 /// Controller to engine and RSUs. The batch of controller step k promises the heads through step k + P.
 struct SignalBatch {
   Step step = 0;

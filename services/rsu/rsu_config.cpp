@@ -1,5 +1,6 @@
 #include "services/rsu/rsu_config.hpp"
 
+#include "common/scenario/actuation.hpp"
 #include "common/scenario/radio.hpp"
 #include "scenario.pb.h"
 
@@ -93,6 +94,7 @@ Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t
   config.speed_limit_mps = scenario.vehicles().speed_limit_kmh() / 3.6;
   config.acceleration_max_mps2 = scenario.vehicles().acceleration_max_mps2();
   config.radio = scenario::radio_parameters(scenario);
+  config.actuation = scenario::actuation(scenario);
   config.algorithm = from.algorithm();
   config.parameters = parameters_of(from, config.acceleration_max_mps2);
   for (const scenario::Sensor& sensor : from.sensors()) {

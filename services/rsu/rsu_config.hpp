@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/core/expected.hpp"
+#include "common/intersection/actuation.hpp"
 #include "common/intersection/geometry.hpp"
 #include "common/messages/plane.hpp"
 #include "common/radio/link_model.hpp"
@@ -31,6 +33,7 @@ struct RsuConfig {
   RoadLengths road;
   double speed_limit_mps = 0.0;
   double acceleration_max_mps2 = 0.0;  ///< of every car
+  std::optional<Actuation> actuation;  ///< empty: the controller runs a fixed plan
   std::string algorithm;
   AlgorithmParameters parameters;
   std::vector<RsuSensor> sensors;  ///< in the order of the scenario

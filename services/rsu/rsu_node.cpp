@@ -70,6 +70,7 @@ RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
       map_(map_of(config_)) {
   LUKOU_EXPECT(algorithm_ != nullptr);
   view_.map = {.speed_limit_mps = config_.speed_limit_mps, .approach_length_m = config_.road.approach_m};
+  view_.actuation = config_.actuation;
   spat_.node = kNode;
   guidance_.rsu = config_.station_id;
   safety_.rsu = config_.station_id;
@@ -96,6 +97,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   hear(k, air, out);
   look(k, air.sensed);
   think(k);
+  ask_for_green(k);
   say_spat(k, out.frames);
   if (k % kMapEvery == 0) say_map(k, out.frames);
   say_guidance(k, out);
@@ -187,6 +189,7 @@ void RsuNode::look(Step k, const SensedColumns& sensed) {
 void RsuNode::think(Step k) {
   view_.step = k;
   view_.time_s = time_s(k);
+  view_.promised_to = signals_.promised_to();
   for (std::size_t i = 0; i < view_.lanes.size(); ++i) {
     const auto lane = static_cast<Lane>(i);
     view_.lanes[i] = {.cars = cars_.cars(lane),
@@ -198,6 +201,16 @@ void RsuNode::think(Step k) {
   }
   answer_.clear();
   algorithm_->on_step(view_, answer_);
+}
+
+void RsuNode::ask_for_green(Step k) {
+  request_.rsu = config_.rsu;
+  request_.step = k;
+  request_.lanes.clear();
+  request_.lifetime.clear();
+  if (!answer_.request()) return;
+  request_.lanes.push_back(answer_.request()->green.bits());
+  request_.lifetime.push_back(answer_.request()->lifetime);
 }
 
 void RsuNode::say_spat(Step k, Frames& frames) {

@@ -7,6 +7,7 @@
 
 #include "common/messages/bsm.hpp"
 #include "common/messages/time_marks.hpp"
+#include "services/rsu/sdk/planning.hpp"
 #include "tests/unit/services/rsu/rsu_rig.hpp"
 
 namespace lukou {
@@ -49,6 +50,42 @@ TEST(RsuNode, ShowsItsAlgorithmWhatItHeard) {
   EXPECT_EQ(calls, 1);
   EXPECT_EQ(out.frames_heard, 2U);
   EXPECT_EQ(out.frames_malformed, 0U);
+}
+
+TEST(RsuNode, HandsOnTheLastRequestOfAStep) {
+  RsuNode node = node_with([](const RsuView& heard, RsuAnswer& answer) {
+    if (heard.step != 1) return;
+    answer.request_green({static_cast<Lane>(3)}, 20);
+    answer.request_green({static_cast<Lane>(0), static_cast<Lane>(2)}, 50);
+  });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 3; ++k) {
+    node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
+    EXPECT_EQ(node.request().step, k);
+    EXPECT_EQ(node.request().lanes, k == 1 ? std::vector<std::uint16_t>{0b101} : std::vector<std::uint16_t>{});
+    EXPECT_EQ(node.request().lifetime, k == 1 ? std::vector<Step>{50} : std::vector<Step>{});
+  }
+}
+
+TEST(RsuNode, TellsItsAlgorithmHowFarTheHeadsArePromised) {
+  RsuConfig with_actuation = config();
+  with_actuation.actuation = Actuation{.min_green = 60};
+  RsuNode node(with_actuation, std::make_unique<Scripted>([](const RsuView& heard, RsuAnswer&) {
+                 EXPECT_EQ(heard.promised_to, kPromised - 1);
+                 ASSERT_TRUE(heard.actuation);
+                 EXPECT_EQ(heard.actuation->min_green, 60);
+                 LaneSet west_east;
+                 for (const Lane lane : kAllLanes) {
+                   if (approach_of(lane) == Approach::kWest || approach_of(lane) == Approach::kEast) {
+                     west_east.insert(lane);
+                   }
+                 }
+                 EXPECT_EQ(promised_green(heard), west_east);
+               }));
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 3; ++k) node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
 }
 
 TEST(RsuNode, SaysSpatInEachStepAndMapInEachSecond) {
