@@ -33,6 +33,7 @@ struct RsuConfig {
   RoadLengths road;
   double speed_limit_mps = 0.0;
   double acceleration_max_mps2 = 0.0;  ///< of every car
+  Step signal_promise = 10;            ///< steps: how far ahead the controller decides
   std::optional<Actuation> actuation;  ///< empty: the controller runs a fixed plan
   std::string algorithm;
   AlgorithmParameters parameters;

@@ -190,6 +190,7 @@ void RsuNode::think(Step k) {
   view_.step = k;
   view_.time_s = time_s(k);
   view_.promised_to = signals_.promised_to();
+  view_.request_acts = k + 1 + config_.signal_promise;
   for (std::size_t i = 0; i < view_.lanes.size(); ++i) {
     const auto lane = static_cast<Lane>(i);
     view_.lanes[i] = {.cars = cars_.cars(lane),

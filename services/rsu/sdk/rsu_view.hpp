@@ -69,9 +69,10 @@ struct RsuView {
   MapView map;
   /// What the controller keeps whatever an RSU asks for. Empty: it runs a fixed plan and refuses every request.
   std::optional<Actuation> actuation;
-  /// Up to this step the heads are promised: no request changes them any more. A request of this step acts after it,
-  /// from step + 1 + run.signal_promise_steps on.
-  Step promised_to = 0;
+  Step promised_to = 0;  ///< the last step whose heads are known for certain
+  /// The first step whose heads a request of this step can change: step + 1 + run.signal_promise_steps. What they show
+  /// between promised_to and then follows from earlier requests.
+  Step request_acts = 0;
   std::array<LaneView, kLanes> lanes;  ///< WL WC WR SL SC SR EL EC ER NL NC NR
 };
 
