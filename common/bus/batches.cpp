@@ -25,6 +25,7 @@ void TrafficBatch::clear() {
   empty(left_vehicle, left_time_s);
   empty(fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded_mps2);
   answers_malformed = 0;
+  requests_refused = 0;
   guard_interventions = 0;
   overflow = 0;
   heard_epoch.clear();

@@ -5,7 +5,9 @@
 #include <string_view>
 
 #include "common/core/step.hpp"
+#include "common/intersection/actuation.hpp"
 #include "common/intersection/lane.hpp"
+#include "common/intersection/lane_set.hpp"
 
 // What is measured of one car, one stop, one advice: rows of tables. docs/results.md defines each column.
 
@@ -53,6 +55,14 @@ struct SettledAdvice {
   std::string_view fate;           ///< name of an AdviceFate; text that lives for ever
   std::optional<Step> first_used;  ///< empty: never, as the next
   std::optional<Step> last_used;
+};
+
+/// A row of requests.csv: what an RSU asks of the signal controller, or what becomes of it, changed.
+struct RequestRow {
+  Step step = 0;  ///< of the controller
+  std::uint32_t rsu = 0;
+  LaneSet lanes;
+  RequestOutcome outcome = RequestOutcome::kAccepted;
 };
 
 }  // namespace lukou

@@ -27,6 +27,7 @@ class Checker {
     compliance();
     links();
     sensors();
+    actuation();
     for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
     return std::move(findings_);
   }
@@ -185,6 +186,30 @@ class Checker {
     if (said.to_m() > approach_m) {
       add(extended(path, "to_m"), given + "at most traffic.approach_length_m, " + number_text(approach_m) + " m",
           {path_to({"traffic", "approach_length_m"})});
+    }
+  }
+
+  void actuation() {
+    if (!scenario_.signals().has_actuation()) return;
+    const Actuation& said = scenario_.signals().actuation();
+    const FieldPath path = path_to({"signals", "actuation"});
+    const double clearance_s = said.min_green_s() + said.yellow_s() + said.all_red_s();
+    if (said.max_wait_s() < clearance_s) {
+      add(extended(path, "max_wait_s"),
+          "is " + number_text(said.max_wait_s()) + " s, must be at least min_green_s + yellow_s + all_red_s, " +
+              number_text(clearance_s) + " s",
+          {extended(path, "min_green_s")});
+    }
+    if (scenario_.signals().allow_conflicts()) {
+      add(path, "keeps crossing streams apart; take it away, or signals.allow_conflicts",
+          {path_to({"signals", "allow_conflicts"})});
+    }
+    if (scenario_.run().on_rsu_loss() != RsuLoss::ABORT) {
+      add(path_to({"run", "on_rsu_loss"}),
+          "is " + RsuLoss::Policy_Name(scenario_.run().on_rsu_loss()) +
+              ", must be ABORT in a run with signals.actuation: when the controller stopped hearing an RSU is not "
+              "recorded",
+          {path});
     }
   }
 

@@ -69,8 +69,8 @@ Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, 
   auto tables = results::RunTables::create(folder);
   if (!tables) return tables.error();
   const RecorderConfig config = recorder_config(scenario);
-  auto events =
-      results::EventTables::create(folder, {.stops = config.record_stops, .guidance = config.record_guidance});
+  auto events = results::EventTables::create(
+      folder, {.stops = config.record_stops, .guidance = config.record_guidance, .requests = config.actuated});
   if (!events) return events.error();
   return RecorderNode(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
                       std::move(events).value());
@@ -94,6 +94,11 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
   if (new_signal != nullptr && !promise_.extend(new_signal->first, new_signal->heads)) {
     return Error{"topic lukou/signal", "the batch of step " + std::to_string(new_signal->step) + " leaves a gap"};
   }
+  if (new_signal != nullptr) {
+    if (auto done = requests_.add(*new_signal); !done) return done;
+    for (const RequestRow& row : requests_.rows()) events_.add(row);
+  }
+  requests_.add_fixed_plan(traffic.requests_refused);
   promise_.forget_before(traffic.step);
   step_ = traffic.step;
   measures_.add(traffic);
@@ -216,8 +221,10 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   if (auto done = radio_.sync(); !done) return done;
   if (auto done = events_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
+  std::optional<RequestFigures> requests;
+  if (config_.actuated || requests_.figures().asked > 0) requests = requests_.figures();
   const std::string summary =
-      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any());
+      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any(), requests);
   const std::string directives = scenario::text(log_);
   if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
   if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;

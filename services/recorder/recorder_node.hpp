@@ -11,6 +11,7 @@
 #include "common/lockstep/messages.hpp"
 #include "common/measures/advice_ledger.hpp"
 #include "common/measures/reception_measures.hpp"
+#include "common/measures/request_ledger.hpp"
 #include "common/results/event_tables.hpp"
 #include "common/results/radio_table.hpp"
 #include "common/results/tables.hpp"
@@ -61,6 +62,7 @@ class RecorderNode {
   RunMeasures measures_;
   AdviceLedger ledger_;
   ReceptionMeasures reception_;
+  RequestLedger requests_;
   Step radio_rows_to_ = 0;  ///< the step of the newest rows of radio.csv
   SignalPromise promise_;
   scenario::DirectiveLog log_;

@@ -59,9 +59,23 @@ Json fates_json(const RunFigures& figures, const std::pair<AdviceFate, const cha
   return json;
 }
 
+Json requests_json(const RequestFigures& requests) {
+  return {{"requests", requests.asked},
+          {"requests_accepted", requests.followed},
+          {"requests_deferred", {{"min_green", requests.count(RequestOutcome::kMinGreen)}}},
+          {"requests_overruled", {{"max_wait", requests.count(RequestOutcome::kMaxWait)}}},
+          {"requests_refused",
+           {{"total", requests.refused()},
+            {"conflict", requests.count(RequestOutcome::kConflict)},
+            {"malformed", requests.count(RequestOutcome::kMalformed)},
+            {"other_rsu", requests.count(RequestOutcome::kOtherRsu)},
+            {"fixed_plan", requests.fixed_plan}}}};
+}
+
 }  // namespace
 
-std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled) {
+std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
+                         const std::optional<RequestFigures>& requests) {
   Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
@@ -78,6 +92,7 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
     json["advice_lost"] = fates_json(figures, kLost);
     json["advice_dropped"] = fates_json(figures, kDropped);
   }
+  if (requests) json["signals"] = requests_json(*requests);
   json["guard_interventions"] = figures.guard_interventions;
   json["collisions"] = figures.collisions;
   json["reversals"] = figures.reversals;

@@ -84,6 +84,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   out.frames_heard = 0;
   out.frames_malformed = 0;
   out.answers_malformed = 0;
+  out.requests_refused = 0;
   out.reception.clear();
   if (new_signal != nullptr) {
     const auto taken = signals_.take({.first = new_signal->first,
@@ -97,7 +98,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   hear(k, air, out);
   look(k, air.sensed);
   think(k);
-  ask_for_green(k);
+  ask_for_green(k, out);
   say_spat(k, out.frames);
   if (k % kMapEvery == 0) say_map(k, out.frames);
   say_guidance(k, out);
@@ -204,12 +205,16 @@ void RsuNode::think(Step k) {
   algorithm_->on_step(view_, answer_);
 }
 
-void RsuNode::ask_for_green(Step k) {
+void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
   request_.rsu = config_.rsu;
   request_.step = k;
   request_.lanes.clear();
   request_.lifetime.clear();
   if (!answer_.request()) return;
+  if (!config_.actuation) {
+    out.requests_refused = 1;
+    return;
+  }
   request_.lanes.push_back(answer_.request()->green.bits());
   request_.lifetime.push_back(answer_.request()->lifetime);
 }

@@ -38,7 +38,7 @@ class RsuNode {
   /// Requires steps one after the other, air of the same step with well-formed columns, and a promise that covers it:
   /// the lockstep has checked them.
   void step(Step k, const SignalBatch* new_signal, const AirBatch& air, RoadsideBatch& out);
-  /// What the last step asks of the signal controller, its epoch excepted.
+  /// What the last step asks of the signal controller, its epoch excepted; nothing if the plan is fixed.
   [[nodiscard]] const RequestBatch& request() const { return request_; }
 
  private:
@@ -53,7 +53,7 @@ class RsuNode {
   void understand(Step k, std::uint8_t kind, std::span<const std::uint8_t> payload, RoadsideBatch& out);
   void look(Step k, const SensedColumns& sensed);
   void think(Step k);
-  void ask_for_green(Step k);
+  void ask_for_green(Step k, RoadsideBatch& out);
   void say_spat(Step k, Frames& frames);
   void say_map(Step k, Frames& frames);
   void say_guidance(Step k, RoadsideBatch& out);

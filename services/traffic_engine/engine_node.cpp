@@ -103,7 +103,9 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   if (auto done = report_reception(roadside, traffic); !done) return done;
   for (const RoadsideBatch* batch : roadside) {
     traffic.heard_epoch.push_back(batch != nullptr ? batch->epoch : 0);
-    if (batch != nullptr) traffic.answers_malformed += batch->answers_malformed;
+    if (batch == nullptr) continue;
+    traffic.answers_malformed += batch->answers_malformed;
+    traffic.requests_refused += batch->requests_refused;
   }
   air.step = k;
   air.frames.clear();

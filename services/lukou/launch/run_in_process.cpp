@@ -3,6 +3,7 @@
 #include "common/lockstep/clock_core.hpp"
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
+#include "common/scenario/actuation.hpp"
 #include "common/scenario/scenario_steps.hpp"
 #include "services/lukou/launch/result_of_run.hpp"
 #include "services/lukou/launch/run_request.hpp"
@@ -29,7 +30,8 @@ class InProcessRun {
   Expected<Done> build(const std::filesystem::path& folder) {
     auto plan = scenario::signal_plan(scenario_);
     if (!plan) return plan.error();
-    controller_.emplace(std::move(plan).value(), protocol_.signal_promise);
+    actuation_ = scenario::actuation(scenario_.message());
+    controller_.emplace(std::move(plan).value(), protocol_.signal_promise, actuation_);
     const auto config = engine_config(scenario_);
     if (!config) return config.error();
     engine_.emplace(config.value());
@@ -50,6 +52,7 @@ class InProcessRun {
   Expected<Done> step(Step k) {
     if (auto done = follow_hearings(k); !done) return done;
     if (auto done = apply_directives(k); !done) return done;
+    if (auto done = hand_over_requests(k); !done) return done;
     SignalBatch batch;
     if (controller_->step(k, batch)) {
       recent_signals_.push_back(batch);
@@ -60,8 +63,7 @@ class InProcessRun {
       }
     }
     for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu) {
-      const bool heard = k > 0 && rsus_[rsu].node && rsus_[rsu].heard_from <= k && k < rsus_[rsu].heard_to;
-      heard_[rsu] = heard ? &rsus_[rsu].answer : nullptr;
+      heard_[rsu] = is_heard(rsus_[rsu], k) ? &rsus_[rsu].answer : nullptr;
     }
     if (auto done = engine_->step(k, engine_signal_.take(k), heard_, traffic_, air_); !done) return done;
     cars_ = traffic_.vehicle.size();
@@ -80,6 +82,21 @@ class InProcessRun {
     Step heard_from = 0;     ///< the engine hears it from this step on ...
     Step heard_to = kNever;  ///< ... until this one, not included
   };
+
+  /// Whether what an RSU said in step k - 1 is heard in step k.
+  static bool is_heard(const RsuLife& life, Step k) {
+    return k > 0 && life.node && life.heard_from <= k && k < life.heard_to;
+  }
+
+  /// The requests of step k - 1 to the controller.
+  Expected<Done> hand_over_requests(Step k) {
+    if (!actuation_) return Done{};
+    for (const RsuLife& life : rsus_) {
+      if (!is_heard(life, k)) continue;
+      if (auto done = controller_->hear(k, life.node->request()); !done) return done;
+    }
+    return Done{};
+  }
 
   Expected<Done> start(std::uint32_t rsu, std::uint32_t epoch) {
     const auto config = rsu_config(scenario_.message(), rsu);
@@ -143,6 +160,7 @@ class InProcessRun {
   scenario::Protocol protocol_;
   scenario::DirectiveLog log_;
   std::size_t next_directive_ = 0;
+  std::optional<Actuation> actuation_;
   std::optional<SignalControllerNode> controller_;
   std::optional<EngineNode> engine_;
   std::optional<RecorderNode> recorder_;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/intersection/actuation.hpp"
 #include "common/intersection/lane_set.hpp"
 #include "common/messages/binding.hpp"
 #include "services/rsu/sdk/rsu_view.hpp"
@@ -21,7 +22,7 @@ struct Advice {
 /// let crossing streams go together; docs/sdk.md.
 struct SignalRequest {
   LaneSet green;
-  Step lifetime = 0;  ///< steps, [1, 36000]
+  Step lifetime = 0;  ///< steps, [1, kLongestRequest]
 
   friend bool operator==(const SignalRequest&, const SignalRequest&) = default;
 };

@@ -52,12 +52,17 @@ TEST(RsuNode, ShowsItsAlgorithmWhatItHeard) {
   EXPECT_EQ(out.frames_malformed, 0U);
 }
 
+/// Asks twice in step 1.
+void ask_twice(const RsuView& heard, RsuAnswer& answer) {
+  if (heard.step != 1) return;
+  answer.request_green({static_cast<Lane>(3)}, 20);
+  answer.request_green({static_cast<Lane>(0), static_cast<Lane>(2)}, 50);
+}
+
 TEST(RsuNode, HandsOnTheLastRequestOfAStep) {
-  RsuNode node = node_with([](const RsuView& heard, RsuAnswer& answer) {
-    if (heard.step != 1) return;
-    answer.request_green({static_cast<Lane>(3)}, 20);
-    answer.request_green({static_cast<Lane>(0), static_cast<Lane>(2)}, 50);
-  });
+  RsuConfig actuated = config();
+  actuated.actuation = Actuation{};
+  RsuNode node(actuated, std::make_unique<Scripted>(ask_twice));
   const SignalBatch signal = signals(0);
   RoadsideBatch out;
   for (Step k = 0; k < 3; ++k) {
@@ -65,6 +70,18 @@ TEST(RsuNode, HandsOnTheLastRequestOfAStep) {
     EXPECT_EQ(node.request().step, k);
     EXPECT_EQ(node.request().lanes, k == 1 ? std::vector<std::uint16_t>{0b101} : std::vector<std::uint16_t>{});
     EXPECT_EQ(node.request().lifetime, k == 1 ? std::vector<Step>{50} : std::vector<Step>{});
+    EXPECT_EQ(out.requests_refused, 0U);
+  }
+}
+
+TEST(RsuNode, CountsARequestThatAFixedPlanCannotHear) {
+  RsuNode node = node_with(ask_twice);
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 3; ++k) {
+    node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
+    EXPECT_TRUE(node.request().lanes.empty());
+    EXPECT_EQ(out.requests_refused, k == 1 ? 1U : 0U);
   }
 }
 
