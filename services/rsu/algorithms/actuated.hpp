@@ -10,8 +10,8 @@ namespace lukou {
 
 struct ActuatedParameters {
   Staging staging = Staging::kAxes;
-  double gap_s = 2.0;
-  double detection_m = 40.0;
+  double gap_s = 1.0;
+  double detection_m = 15.0;
   double max_green_s = 60.0;
 };
 
