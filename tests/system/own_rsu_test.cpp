@@ -3,7 +3,9 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "common/intersection/conflicts.hpp"
 #include "tests/system/program.hpp"
 
 namespace lukou::test {
@@ -148,6 +150,93 @@ TEST_F(OwnRsu, WrittenInCFromTheIdlAloneGivesTheTrafficOfItsPythonTwin) {
   EXPECT_EQ(
       shell("for file in car stop road stop_time; do cmp c_alone/$file.csv c_twin/$file.csv || exit 1; done").code, 0);
   EXPECT_GT(json::parse(shell("cat c_alone/summary.json").out).at("advice_applied").get<int>(), 0);
+}
+
+/// An RSU that asks every third step for random lanes, and writes down what the heads show, '1' red to '3' green.
+constexpr const char* kAsksAtRandom =
+    "pass\n"
+    "        if not hasattr(self, 'log'):\n"
+    "            self.log, self.draw = open(sys.argv[0] + '.heads', 'w'), 1\n"
+    "        self.log.write(''.join(str(lane.aspect.value) for lane in heard.lanes) + '\\n')\n"
+    "        self.draw = (self.draw * 1103515245 + 12345) % 2**31\n"
+    "        lanes = []\n"
+    "        for i, lane in enumerate(heard.lanes):\n"
+    "            if self.draw >> (8 + i) & 1 and (heard.step % 5 == 0 or not lukou.has_hard_conflict(lanes + "
+    "[lane.name])):\n"
+    "                lanes.append(lane.name)\n"
+    "        if heard.step % 3 == 0:\n"
+    "            answer.request_green(lanes, 2.0)";
+
+/// Lengths of the stretches in which a lane's head shows one aspect; the first and the last are cut.
+std::vector<std::pair<char, int>> stretches(const std::vector<std::string>& heads, std::size_t lane) {
+  std::vector<std::pair<char, int>> found;
+  for (const std::string& shown : heads) {
+    if (found.empty() || found.back().first != shown.at(lane)) found.emplace_back(shown.at(lane), 0);
+    ++found.back().second;
+  }
+  return found;
+}
+
+TEST_F(OwnRsu, ThatAsksForRandomGreensGetsThemWithinTheRules) {
+  const std::string actuated =
+      "--duration 300 --set signals.actuation.min_green_s=5 --set signals.actuation.yellow_s=2";
+  const Finished run = run_python("asks", kAsksAtRandom, actuated);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const json signals = json::parse(run.out).at("summary").at("signals");
+  EXPECT_GE(signals.at("requests").get<int>(), 995);
+  EXPECT_GT(signals.at("requests_accepted").get<int>(), 100);
+  EXPECT_GT(signals.at("requests_deferred").at("min_green").get<int>(), 0);
+  EXPECT_GT(signals.at("requests_refused").at("conflict").get<int>(), 0);
+  expect_sound("asks", 3000);
+  EXPECT_EQ(shell("head -1 asks/requests.csv").out, "step,time_s,rsu,lanes,outcome,rule\n");
+
+  std::istringstream log(shell("cat asks.py.heads").out);
+  std::vector<std::string> heads;
+  for (std::string line; std::getline(log, line);) heads.push_back(line);
+  ASSERT_EQ(heads.size(), 3001U);
+  std::size_t greens = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const auto found = stretches(heads, lane);
+    for (std::size_t i = 1; i + 1 < found.size(); ++i) {
+      const auto [aspect, steps] = found[i];
+      if (aspect == '3') {
+        EXPECT_GE(steps, 50) << lane;
+        EXPECT_EQ(found[i + 1].first, '2') << lane;
+        ++greens;
+      } else if (aspect == '2') {
+        EXPECT_EQ(steps, 20) << lane;
+        EXPECT_EQ(found[i + 1].first, '1') << lane;
+      }
+    }
+  }
+  EXPECT_GT(greens, 50U) << "there was something to check";
+  for (std::size_t step = 0; step < heads.size(); ++step) {
+    for (std::size_t a = 0; a < kLanes; ++a) {
+      if (heads[step][a] == '1') continue;
+      for (const Lane b : hard_conflicts(static_cast<Lane>(a))) {
+        ASSERT_EQ(heads[step][index(b)], '1') << step;
+        // 1 s of all-red before each green.
+        if (step < 10 || heads[step - 1][a] != '1') continue;
+        for (std::size_t before = 1; before <= 10; ++before) ASSERT_EQ(heads[step - before][index(b)], '1') << step;
+      }
+    }
+  }
+
+  // Another pace, the same bytes.
+  EXPECT_EQ(run_python("asks_again", kAsksAtRandom, actuated + " --pace 200").code, 0);
+  EXPECT_EQ(shell("for file in car stop requests; do cmp asks/$file.csv asks_again/$file.csv || exit 1; done && "
+                  "cmp asks/summary.json asks_again/summary.json")
+                .code,
+            0);
+}
+
+TEST_F(OwnRsu, ThatAsksForGreensUnderAFixedPlanIsRefusedAndTold) {
+  const Finished run = run_python("unheard", "heard.actuation is None and answer.request_green(['WC'], 1.0)");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const json signals = json::parse(run.out).at("summary").at("signals");
+  // One in each step from 100 to 599; the engine hears that of 600 no more.
+  EXPECT_EQ(signals.at("requests_refused").at("fixed_plan"), 500);
+  EXPECT_EQ(signals.at("requests_accepted"), 0);
 }
 
 TEST_F(OwnRsu, KeepsNoViewBeyondItsStep) {

@@ -31,6 +31,22 @@ class MapView:
     def approach_length_m(self) -> float:
         """From the entrance to the stop line."""
 
+class Actuation:
+    """What the signal controller keeps whatever an RSU asks for."""
+
+    def __init__(
+        self, *, min_green_s: float = 8.0, yellow_s: float = 3.0, all_red_s: float = 1.0, max_wait_s: float = 120.0
+    ) -> None: ...
+    @property
+    def min_green_s(self) -> float: ...
+    @property
+    def yellow_s(self) -> float: ...
+    @property
+    def all_red_s(self) -> float: ...
+    @property
+    def max_wait_s(self) -> float:
+        """A lane that has been red for longer comes before every request."""
+
 class RsuSetup:
     """What an RSU knows before its first step."""
 
@@ -154,6 +170,14 @@ class RsuView:
     @property
     def lanes(self) -> list[LaneView]: ...
     @property
+    def actuation(self) -> Optional[Actuation]:
+        """None: the controller runs a fixed plan and refuses every request."""
+    @property
+    def promised_to_s(self) -> float:
+        """Up to this time the heads are promised: no request changes them any more."""
+    def promised_green(self) -> list[str]:
+        """The lanes whose heads show green then."""
+    @property
     def cars(self) -> CarTable: ...
 
 class Advice:
@@ -167,6 +191,12 @@ class Advice:
     def lifetime_s(self) -> Optional[float]: ...
     @property
     def binding(self) -> Optional[Binding]: ...
+
+class SignalRequest:
+    @property
+    def lanes(self) -> list[str]: ...
+    @property
+    def lifetime_s(self) -> float: ...
 
 class RsuAnswer:
     """What an algorithm asks for in one step. Advice that no message can carry is refused and counted, never bent."""
@@ -182,6 +212,8 @@ class RsuAnswer:
         binding: Binding = Binding.GUARD,
     ) -> None: ...
     def release(self, car: int) -> None: ...
+    def request_green(self, lanes: Sequence[str], lifetime_s: float) -> None:
+        """Wants exactly these lanes green from now on until the lifetime ends or a newer request comes."""
 
 class RsuAlgorithm:
     def __init__(self) -> None: ...
@@ -193,6 +225,9 @@ def time_to_line_s(distance_m: float, speed_mps: float, acceleration_mps2: float
 
 def arrival_acceleration_mps2(distance_m: float, speed_mps: float, time_s: float) -> Optional[float]:
     """The constant acceleration that brings a car to the line in exactly time_s; None if it would have to roll back."""
+
+def has_hard_conflict(lanes: Sequence[str]) -> bool:
+    """Whether two of the lanes cross: they can never be green together."""
 
 def carriable_mps2(wanted_mps2: float, limit_mps2: float) -> float:
     """The nearest value that every car takes and a message carries: within the limit, towards zero to 0.01 m/s2."""
@@ -211,9 +246,24 @@ class LaneScript:
     ) -> None: ...
 
 def answer_of(
-    algorithm: RsuAlgorithm, setup: RsuSetup, *, time_s: float = 0.0, lanes: Mapping[str, LaneScript]
+    algorithm: RsuAlgorithm,
+    setup: RsuSetup,
+    *,
+    time_s: float = 0.0,
+    lanes: Mapping[str, LaneScript],
+    actuation: Optional[Actuation] = None,
 ) -> list[Advice]:
     """What the algorithm says to scripted lanes: for tests, without a run."""
+
+def request_of(
+    algorithm: RsuAlgorithm,
+    setup: RsuSetup,
+    *,
+    time_s: float = 0.0,
+    lanes: Mapping[str, LaneScript],
+    actuation: Optional[Actuation] = None,
+) -> Optional[SignalRequest]:
+    """What the algorithm asks of the signals; the heads are promised as far as time_s."""
 
 def run_rsu(make: Callable[[RsuSetup], RsuAlgorithm]) -> int:
     """Takes part in the run that `lukou run --rsu` started this program for; returns the exit code."""

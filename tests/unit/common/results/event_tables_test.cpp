@@ -52,6 +52,32 @@ TEST_F(Events, AreWrittenAsDocumented) {
   EXPECT_EQ(entries[1].sha256, sha256_hex(content("stops.csv")));
 }
 
+TEST_F(Events, OfRequestsAreWrittenAsDocumented) {
+  auto tables = EventTables::create(folder(), {.requests = true});
+  ASSERT_TRUE(tables.ok()) << tables.error().text();
+  const LaneSet lanes{lane_of(Approach::kSouth, Turn::kCenter), lane_of(Approach::kWest, Turn::kRight)};
+  tables.value().add(RequestRow{.step = 21, .rsu = 0, .lanes = lanes, .outcome = RequestOutcome::kAccepted});
+  tables.value().add(RequestRow{.step = 22, .rsu = 0, .lanes = lanes, .outcome = RequestOutcome::kMinGreen});
+  tables.value().add(RequestRow{.step = 30, .rsu = 0, .lanes = lanes, .outcome = RequestOutcome::kMaxWait});
+  tables.value().add(RequestRow{.step = 40, .rsu = 1, .lanes = {}, .outcome = RequestOutcome::kMalformed});
+  tables.value().add(RequestRow{.step = 41, .rsu = 1, .lanes = lanes, .outcome = RequestOutcome::kConflict});
+  tables.value().add(RequestRow{.step = 42, .rsu = 1, .lanes = lanes, .outcome = RequestOutcome::kOtherRsu});
+  tables.value().add(RequestRow{.step = 50, .rsu = 0, .lanes = lanes, .outcome = RequestOutcome::kEnded});
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_EQ(content("requests.csv"),
+            "step,time_s,rsu,lanes,outcome,rule\n"
+            "21,2.1,0,WR SC,accepted,\n"
+            "22,2.2,0,WR SC,deferred,min_green\n"
+            "30,3.0,0,WR SC,overruled,max_wait\n"
+            "40,4.0,1,,refused,malformed\n"
+            "41,4.1,1,WR SC,refused,conflict\n"
+            "42,4.2,1,WR SC,refused,other_rsu\n"
+            "50,5.0,0,WR SC,ended,\n");
+  ASSERT_EQ(tables.value().entries().size(), 1U);
+  EXPECT_EQ(tables.value().entries()[0].name, "requests.csv");
+  EXPECT_EQ(tables.value().entries()[0].rows, 7);
+}
+
 TEST_F(Events, AreLeftOutWhenNobodyAskedForThem) {
   auto tables = EventTables::create(folder(), {});
   ASSERT_TRUE(tables.ok());
