@@ -1,5 +1,6 @@
 #include "common/results/event_tables.hpp"
 
+#include <fstream>
 #include <utility>
 
 namespace lukou::results {
@@ -12,8 +13,16 @@ void whole_or_empty(TableWriter& table, const std::optional<Step>& step) { step 
 std::string stops_columns() {
   return "step,time_s,vehicle,lane,equipped,began_step,began_s,distance_m,stood_s,cause,guidance,missed";
 }
-std::string guidance_columns() {
-  return "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step";
+std::string guidance_columns(bool kinds) {
+  return std::string("step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step") +
+         (kinds ? ",kind,commanded_speed_mps" : "");
+}
+
+std::string guidance_columns_in(const std::filesystem::path& folder) {
+  std::ifstream table(folder / kGuidanceTable);
+  std::string first_line;
+  std::getline(table, first_line);
+  return guidance_columns(first_line == guidance_columns(true));
 }
 
 Expected<EventTables> EventTables::create(const std::filesystem::path& folder, const Asked& asked) {
@@ -24,9 +33,10 @@ Expected<EventTables> EventTables::create(const std::filesystem::path& folder, c
     tables.stops_.emplace(std::move(stops).value());
   }
   if (asked.guidance) {
-    auto guidance = TableWriter::create(folder / kGuidanceTable, guidance_columns());
+    auto guidance = TableWriter::create(folder / kGuidanceTable, guidance_columns(asked.advice_kinds));
     if (!guidance) return guidance.error();
     tables.guidance_.emplace(std::move(guidance).value());
+    tables.advice_kinds_ = asked.advice_kinds;
   }
   return tables;
 }
@@ -64,6 +74,10 @@ void EventTables::add(const SettledAdvice& row) {
   // Advice that is used in step k acts from t(k-1) on.
   row.first_used&& row.issued ? table.tenths(*row.first_used - 1 - *row.issued) : table.name("");
   whole_or_empty(table, row.last_used);
+  if (advice_kinds_) {
+    table.name(row.kind);
+    row.speed_mps ? table.real(*row.speed_mps) : table.name("");
+  }
   table.end_row();
 }
 

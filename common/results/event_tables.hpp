@@ -17,7 +17,10 @@ inline constexpr const char* kGuidanceTable = "guidance.csv";
 
 /// Header lines.
 std::string stops_columns();
-std::string guidance_columns();
+/// `kinds`: with what kind each advice is and which speed it asks for.
+std::string guidance_columns(bool kinds = false);
+/// Those that the folder's guidance.csv has; without kinds if it is not whole.
+std::string guidance_columns_in(const std::filesystem::path& folder);
 
 /// The tables that hold a row per event, as far as the scenario asks for them. Rows come in the order of the steps in
 /// which they were complete: of a stop its end, of an advice its final fate.
@@ -26,6 +29,7 @@ class EventTables {
   struct Asked {
     bool stops = false;
     bool guidance = false;
+    bool advice_kinds = false;
   };
   static Expected<EventTables> create(const std::filesystem::path& folder, const Asked& asked);
 
@@ -44,6 +48,7 @@ class EventTables {
 
   std::optional<TableWriter> stops_;
   std::optional<TableWriter> guidance_;
+  bool advice_kinds_ = false;
 };
 
 }  // namespace lukou::results

@@ -11,6 +11,7 @@ struct RecorderConfig {
   bool stop_on_overflow = true;
   bool record_stops = true;
   bool record_guidance = false;
+  bool advice_kinds = false;
   std::uint64_t seed = 0;
   Step end = 0;
 };

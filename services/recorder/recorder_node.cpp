@@ -69,8 +69,8 @@ Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, 
   auto tables = results::RunTables::create(folder);
   if (!tables) return tables.error();
   const RecorderConfig config = recorder_config(scenario);
-  auto events =
-      results::EventTables::create(folder, {.stops = config.record_stops, .guidance = config.record_guidance});
+  auto events = results::EventTables::create(
+      folder, {.stops = config.record_stops, .guidance = config.record_guidance, .advice_kinds = config.advice_kinds});
   if (!events) return events.error();
   return RecorderNode(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
                       std::move(events).value());

@@ -35,8 +35,8 @@ struct Layout {
 Layout stops_layout() {
   return {results::kStopsTable, results::stops_columns(), "--set record.stops=true (the default)", 2, 9, 8};
 }
-Layout guidance_layout() {
-  return {results::kGuidanceTable, results::guidance_columns(), "--set record.guidance=true", 6, 9, {}};
+Layout guidance_layout(const fs::path& folder) {
+  return {results::kGuidanceTable, results::guidance_columns_in(folder), "--set record.guidance=true", 6, 9, {}};
 }
 
 struct Total {
@@ -85,7 +85,7 @@ Json row_json(const Cells& names, const Cells& cells) {
 class Answer {
  public:
   explicit Answer(const WhyQuestion& question)
-      : question_(question), layout_(question.guidance ? guidance_layout() : stops_layout()) {}
+      : question_(question), layout_(question.guidance ? guidance_layout(question.folder) : stops_layout()) {}
 
   Expected<Done> run() && {
     std::error_code code;

@@ -52,6 +52,24 @@ TEST_F(Events, AreWrittenAsDocumented) {
   EXPECT_EQ(entries[1].sha256, sha256_hex(content("stops.csv")));
 }
 
+TEST_F(Events, SayTheKindOfAdviceIfAsked) {
+  auto tables = EventTables::create(folder(), {.guidance = true, .advice_kinds = true});
+  ASSERT_TRUE(tables.ok()) << tables.error().text();
+  SettledAdvice speed{.settled = 120, .issued = 112, .vehicle = 9, .lane = Lane{4}, .commanded_mps2 = -0.5};
+  speed.fate = "applied";
+  speed.first_used = 113;
+  speed.last_used = 117;
+  speed.kind = "speed";
+  speed.speed_mps = 12.5;
+  tables.value().add(speed);
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_EQ(content("guidance.csv"),
+            "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step,kind,"
+            "commanded_speed_mps\n"
+            "120,12.0,112,11.2,0,0,9,SC,-0.5,applied,0.0,117,speed,12.5\n");
+  EXPECT_EQ(guidance_columns_in(folder()), guidance_columns(true));
+}
+
 TEST_F(Events, AreLeftOutWhenNobodyAskedForThem) {
   auto tables = EventTables::create(folder(), {});
   ASSERT_TRUE(tables.ok());
