@@ -113,6 +113,15 @@ enum class AdviceFate : std::uint8_t {
 };
 inline constexpr std::size_t kAdviceFates = 23;
 
+/// What an advice asked for. The values stand on the bus.
+enum class AdviceKind : std::uint8_t {
+  kAcceleration = 0,  ///< an acceleration
+  kProfile = 1,       ///< accelerations one after the other
+  kSpeed = 2,         ///< a speed
+  kLaneSpeed = 3,     ///< a speed for everybody on the lane: one advice for each car that it is for
+};
+inline constexpr std::size_t kAdviceKinds = 4;
+
 /// Where a car stands with guidance. The values stand on the bus.
 enum class GuidanceState : std::uint8_t {
   kNotEquipped = 0,   ///< has no on-board unit
@@ -198,6 +207,10 @@ struct TrafficBatch {
   std::vector<std::uint32_t> heard_epoch;  ///< per RSU: the epoch heard in this step, 0 = silent
   std::uint32_t requests_refused = 0;      ///< requests for greens of the RSUs in a run whose plan is fixed
   ReceptionReport reception;  ///< of the instant t_(step-1): what cars heard, then what RSUs said they heard
+
+  // Two more columns of the fates.
+  std::vector<std::uint8_t> fate_kind;  ///< AdviceKind
+  std::vector<double> fate_speed_mps;   ///< of the kinds that ask for a speed; else NaN
 
   void clear();
 };

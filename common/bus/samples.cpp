@@ -94,6 +94,7 @@ void traffic_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.fate_sequence, sample.fate_sequence), move(plain.fate, sample.fate);
   move(plain.fate_again, sample.fate_again), move(plain.fate_issued, sample.fate_issued);
   move(plain.fate_commanded_mps2, sample.fate_commanded_mps2), move(plain.heard_epoch, sample.heard_epoch);
+  move(plain.fate_kind, sample.fate_kind), move(plain.fate_speed_mps, sample.fate_speed_mps);
 }
 
 template <class Plain, class Sample, class Move>

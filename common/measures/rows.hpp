@@ -51,10 +51,12 @@ struct SettledAdvice {
   std::uint32_t sequence = 0;
   std::optional<std::uint32_t> vehicle;  ///< empty: nobody on the road, as the next
   std::optional<Lane> lane;
-  double commanded_mps2 = 0.0;     ///< not a number: not decodable
+  double commanded_mps2 = 0.0;     ///< not a number: not decodable, or a speed that never became one
   std::string_view fate;           ///< name of an AdviceFate; text that lives for ever
   std::optional<Step> first_used;  ///< empty: never, as the next
   std::optional<Step> last_used;
+  std::string_view kind = "acceleration";  ///< name of an AdviceKind; text that lives for ever
+  std::optional<double> speed_mps{};       ///< that it asked for
 };
 
 /// A row of requests.csv: what an RSU asks of the signal controller, or what becomes of it, changed.

@@ -13,7 +13,8 @@ std::string stops_columns() {
   return "step,time_s,vehicle,lane,equipped,began_step,began_s,distance_m,stood_s,cause,guidance,missed";
 }
 std::string guidance_columns() {
-  return "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step";
+  return "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step,kind,"
+         "commanded_speed_mps";
 }
 std::string requests_columns() { return "step,time_s,rsu,lanes,outcome,rule"; }
 
@@ -107,6 +108,8 @@ void EventTables::add(const SettledAdvice& row) {
   // Advice that is used in step k acts from t(k-1) on.
   row.first_used&& row.issued ? table.tenths(*row.first_used - 1 - *row.issued) : table.name("");
   whole_or_empty(table, row.last_used);
+  table.name(row.kind);
+  row.speed_mps ? table.real(*row.speed_mps) : table.name("");
   table.end_row();
 }
 

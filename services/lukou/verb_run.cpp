@@ -9,6 +9,7 @@
 #include "services/lukou/launch/run_request.hpp"
 #include "services/lukou/report/progress.hpp"
 #include "services/lukou/report/summary_text.hpp"
+#include "services/lukou/rsu_option.hpp"
 #include "services/lukou/scenario_arguments.hpp"
 #include "services/lukou/verbs.hpp"
 
@@ -20,7 +21,7 @@ struct RunArguments {
   std::string mode = "processes";
   std::string pace = "max";
   std::string out;
-  std::string rsu;
+  std::vector<std::string> rsus;  ///< "COMMAND" for all RSUs, or "N=COMMAND"
   std::string replay;
   std::string stall_limit;
   std::string run_id;
@@ -45,7 +46,11 @@ Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved sc
 }
 
 int run(const RunArguments& arguments) {
-  auto scenario = load(arguments.scenario);
+  const auto rsus = rsu_options("--rsu", arguments.rsus);
+  if (!rsus) return report_errors(rsus.error());
+  ScenarioArguments asked = arguments.scenario;
+  for (const auto& [rsu, command] : rsus.value().of) asked.rsus_of_a_user.push_back(rsu);
+  auto scenario = load(asked);
   if (!scenario) return report_errors(scenario.error());
   if (const auto pace = pace_of(arguments.pace); !pace) return report_errors(pace.error());
   if (!arguments.replay.empty()) {
@@ -59,13 +64,14 @@ int run(const RunArguments& arguments) {
                              .in_process = arguments.mode == "in-process",
                              .pace = arguments.pace,
                              .out = arguments.out,
-                             .rsu = arguments.rsu,
+                             .rsu = rsus.value().all,
+                             .rsu_of = rsus.value().of,
                              .start_paused = arguments.wait,
                              .watchdog = !arguments.no_watchdog,
                              .stall_limit_s = arguments.stall_limit,
                              .replay = arguments.replay.empty() ? "" : std::filesystem::absolute(arguments.replay),
                              .observe = !arguments.quiet};
-  if (request.in_process && (!request.rsu.empty() || request.start_paused)) {
+  if (request.in_process && (!arguments.rsus.empty() || request.start_paused)) {
     return report_errors({"--mode in-process", "takes neither --rsu nor --wait: there are no processes to talk to"});
   }
   process::catch_stop_signals();
@@ -98,7 +104,12 @@ Action add_run(CLI::App& app) {
   verb->add_option("--pace", arguments->pace, "max, very-slow, slow, medium, fast, or simulated seconds per second")
       ->capture_default_str();
   verb->add_option("--out", arguments->out, "result folder: must not exist, or be empty [result/<time>-<pace>]");
-  verb->add_option("--rsu", arguments->rsu, "command that is the RSU, or `wait`: started by hand");
+  // One word each, as --set.
+  verb->add_option("--rsu", arguments->rsus,
+                   "command that is the RSU, or `wait`: started by hand; of all RSUs, or of RSU N; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->type_name("[N=]COMMAND");
   verb->add_option("--replay-directives", arguments->replay, "directives.textproto of an earlier run");
   verb->add_option("--stall-limit", arguments->stall_limit, "wall seconds without progress that abort the run [30]")
       ->check(CLI::PositiveNumber);

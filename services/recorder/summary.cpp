@@ -85,6 +85,12 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
     json["stops_by_cause"][std::string(kStopCauseNames[cause])] = figures.stops_by_cause[cause];
   }
   json["advice_sent"] = figures.advice_sent;
+  const auto of_kind = [&](AdviceKind kind) { return figures.advice_by_kind[static_cast<std::size_t>(kind)]; };
+  const std::uint64_t others =
+      of_kind(AdviceKind::kProfile) + of_kind(AdviceKind::kSpeed) + of_kind(AdviceKind::kLaneSpeed);
+  for (std::size_t kind = 0; others > 0 && kind < kAdviceKinds; ++kind) {
+    json["advice_by_kind"][std::string(name(static_cast<AdviceKind>(kind)))] = figures.advice_by_kind[kind];
+  }
   json["advice_applied"] = figures.advice(AdviceFate::kApplied);
   json["advice_refused"] = fates_json(figures, kRefused);
   json["advice_changed"] = fates_json(figures, kChanged);

@@ -6,6 +6,7 @@
 #include "common/core/contract.hpp"
 #include "common/messages/bsm.hpp"
 #include "common/messages/time_marks.hpp"
+#include "services/rsu/guided_path.hpp"
 
 namespace lukou {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr std::uint16_t kNode = 1;          // id of the intersection; assumed, from the range for tests
 constexpr std::size_t kStatesPerPhase = 3;  // what shows now and the two aspects after it
 constexpr Step kMapEvery = kStepsPerSecond;
-constexpr Step kLongestLifetime = 65'534 / 10;  // steps that the field of 10 ms units holds
 
 constexpr double kTypicalWidth_m = 1.8;            // of what a sensor sees; assumed
 constexpr Step kClockTolerance = kStepsPerSecond;  // a car's clock may be this far ahead; assumed
@@ -73,6 +73,7 @@ RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
   view_.actuation = config_.actuation;
   spat_.node = kNode;
   guidance_.rsu = config_.station_id;
+  guidance_.node = kNode;
   safety_.rsu = config_.station_id;
 }
 
@@ -245,32 +246,35 @@ void RsuNode::say_map(Step k, Frames& frames) {
 
 void RsuNode::say_guidance(Step k, RoadsideBatch& out) {
   guidance_.second_mark_ms = second_mark_ms(k);
-  guidance_.vehicles.clear();
   for (const RsuAnswer::Item& item : answer_.items()) {
-    VehicleCoordination vehicle{.vehicle = static_cast<std::uint64_t>(item.car), .path = {}, .binding = {}};
-    if (item.advice) {
-      // A car that is not on the map stands at the centre of the junction: its advice is for the car to refuse.
-      const ReportedPlace place = cars_.place(item.car).value_or(ReportedPlace{});
-      const Step lifetime = std::clamp<Step>(item.advice->lifetime, 0, kLongestLifetime + 1);
-      vehicle.path = GuidedPath{.centre = {place.centre_x_m, place.centre_y_m},
-                                .acceleration_mps2 = item.advice->acceleration_mps2,
-                                .lifetime_ms = static_cast<std::uint32_t>(lifetime * kStep_ms)};
-      vehicle.binding = item.advice->binding;
-      if (!fits(*vehicle.path)) {
-        ++out.answers_malformed;
-        continue;
-      }
+    VehicleCoordination vehicle{.vehicle = static_cast<std::uint64_t>(item.car),
+                                .path = guided_path(item, cars_.report(item.car)),
+                                .binding = binding_of(item)};
+    if (vehicle.path && !fits(*vehicle.path)) {
+      ++out.answers_malformed;
+      continue;
     }
-    guidance_.vehicles.push_back(vehicle);
+    guidance_.vehicles.push_back(std::move(vehicle));
     if (guidance_.vehicles.size() == kMaxCoordinations) send_guidance(out.frames);
   }
   if (!guidance_.vehicles.empty()) send_guidance(out.frames);
+  for (const LaneSpeedAdvice& advice : answer_.lanes()) {
+    const LaneSpeed word = lane_word(advice);
+    if (!fits(word)) {
+      ++out.answers_malformed;
+      continue;
+    }
+    guidance_.lanes.push_back(word);
+    if (guidance_.lanes.size() == kMaxLaneCoordinations) send_guidance(out.frames);
+  }
+  if (!guidance_.lanes.empty()) send_guidance(out.frames);
 }
 
 void RsuNode::send_guidance(Frames& frames) {
   guidance_.count = next_count(FrameKind::kRsc);
   append(frames, next_envelope(), guidance_);
   guidance_.vehicles.clear();
+  guidance_.lanes.clear();
 }
 
 void RsuNode::say_sensed(Frames& frames) {

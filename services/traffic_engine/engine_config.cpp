@@ -34,6 +34,17 @@ traffic::VehicleParameters vehicle_parameters(const scenario::Vehicles& from) {
           .actuation_noise_mps2 = from.actuation_noise_mps2()};
 }
 
+/// A field that is kept absent has its fallback.
+traffic::UnitParameters unit_parameters(const scenario::OnBoardUnit& from) {
+  traffic::UnitParameters unit;
+  unit.fallback_s = from.fallback_s();
+  unit.rsu_lost_after_s = from.rsu_lost_after_s();
+  if (from.has_speed_gain_time_s()) unit.speed_gain_time_s = from.speed_gain_time_s();
+  if (from.has_speed_acceleration_mps2()) unit.speed_acceleration_mps2 = from.speed_acceleration_mps2();
+  if (from.has_speed_deceleration_mps2()) unit.speed_deceleration_mps2 = from.speed_deceleration_mps2();
+  return unit;
+}
+
 traffic::DrivingParameters driving_parameters(const scenario::Driving& from) {
   return {.desired_speed_mean = from.desired_speed_mean(),
           .desired_speed_deviation = from.desired_speed_deviation(),
@@ -138,8 +149,7 @@ Expected<EngineConfig> engine_config(const scenario::Resolved& scenario) {
   config.traffic.overflow_wait_s = from.run().overflow_wait_s();
   config.traffic.vehicles = vehicle_parameters(from.vehicles());
   config.traffic.equipped_ratio = from.vehicles().equipped_ratio();
-  const scenario::OnBoardUnit& unit = from.vehicles().on_board_unit();
-  config.traffic.unit = {.fallback_s = unit.fallback_s(), .rsu_lost_after_s = unit.rsu_lost_after_s()};
+  config.traffic.unit = unit_parameters(from.vehicles().on_board_unit());
   const scenario::Compliance& compliance = from.vehicles().compliance();
   config.traffic.compliance = {.human_share = compliance.human_share(),
                                .ignoring_share = compliance.ignoring_share(),

@@ -18,7 +18,7 @@ namespace {
 /// Steps that begin within a lifetime: an advice of 250 ms acts in three.
 Step steps_of_life(std::uint32_t lifetime_ms) { return (static_cast<Step>(lifetime_ms) + kStep_ms - 1) / kStep_ms; }
 
-AdviceFate fate_of(LossCause cause) {
+AdviceFate loss_fate(LossCause cause) {
   switch (cause) {
     case LossCause::kRandom:
       return AdviceFate::kLostRandom;
@@ -36,6 +36,29 @@ AdviceFate fate_of(LossCause cause) {
       break;
   }
   return AdviceFate::kLostRange;
+}
+
+/// What an RSC asks of a car, but for its frame.
+traffic::Advice advice_of(const VehicleCoordination& asked) {
+  traffic::Advice advice{.target = asked.vehicle,
+                         .binding = asked.binding == Binding::kFollowing ? traffic::AdviceBinding::kFollowing
+                                                                         : traffic::AdviceBinding::kGuard,
+                         .release = !asked.path};
+  if (!asked.path) return advice;
+  const GuidedPath& path = *asked.path;
+  advice.acceleration_mps2 = path.acceleration_mps2;
+  advice.lifetime = steps_of_life(path.lifetime_ms);
+  if (path.speed_mps) {
+    advice.kind = traffic::AdviceKind::kSpeed;
+    advice.speed_mps = *path.speed_mps;
+    advice.acceleration_mps2 = std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!path.later.empty()) advice.kind = traffic::AdviceKind::kProfile;
+  for (const LaterAcceleration& later : path.later) {
+    // From the first step that begins then: a point at 250 ms acts from the fourth step on.
+    advice.later.push_back({.after = steps_of_life(later.from_ms), .acceleration_mps2 = later.acceleration_mps2});
+  }
+  return advice;
 }
 
 bool same_flows(const traffic::DemandParameters& a, const traffic::DemandParameters& b) {
@@ -143,31 +166,54 @@ void EngineNode::hear_coordination(const RoadsideBatch& batch, std::size_t frame
   const std::uint32_t sequence = batch.frames.sequence[frame];
   const auto message = decode_rsc(batch.frames.payload_of(frame));
   if (!message) {
-    fates_.push_back({traffic::kNoVehicle, batch.rsu, sequence, AdviceFate::kMalformed, -1,
-                      std::numeric_limits<double>::quiet_NaN()});
+    fates_.push_back({.vehicle = traffic::kNoVehicle,
+                      .rsu = batch.rsu,
+                      .sequence = sequence,
+                      .fate = AdviceFate::kMalformed,
+                      .issued = -1,
+                      .commanded_mps2 = std::numeric_limits<double>::quiet_NaN()});
     return;
   }
   const Step issued = step_of_second_mark(batch.step, message.value().second_mark_ms);
   for (const VehicleCoordination& asked : message.value().vehicles) {
-    traffic::Advice advice{.target = asked.vehicle,
-                           .acceleration_mps2 = 0.0,
-                           .binding = asked.binding == Binding::kFollowing ? traffic::AdviceBinding::kFollowing
-                                                                           : traffic::AdviceBinding::kGuard,
-                           .release = !asked.path,
-                           .issued = issued,
-                           .lifetime = 0,
-                           .rsu = batch.rsu,
-                           .sequence = sequence};
-    if (asked.path) {
-      advice.acceleration_mps2 = asked.path->acceleration_mps2;
-      advice.lifetime = steps_of_life(asked.path->lifetime_ms);
-    }
-    if (config_.radio.modelled) {
-      send(advice, batch, frame);
-    } else {
-      advice_.push_back(advice);
-    }
+    traffic::Advice advice = advice_of(asked);
+    advice.issued = issued;
+    advice.rsu = batch.rsu;
+    advice.sequence = sequence;
+    pass_on(advice, batch, frame);
   }
+  for (const LaneSpeed& word : message.value().lanes) {
+    const traffic::Advice advice{.acceleration_mps2 = std::numeric_limits<double>::quiet_NaN(),
+                                 .issued = issued,
+                                 .lifetime = steps_of_life(word.lifetime_ms),
+                                 .rsu = batch.rsu,
+                                 .sequence = sequence,
+                                 .kind = traffic::AdviceKind::kLaneSpeed,
+                                 .speed_mps = word.speed_mps};
+    say_on_lane(word, advice, batch, frame);
+  }
+}
+
+void EngineNode::say_on_lane(const LaneSpeed& word, traffic::Advice advice, const RoadsideBatch& batch,
+                             std::size_t frame) {
+  for (const traffic::Car& car : engine_.lane(word.lane).cars()) {
+    if (!car.equipped || car.stage == traffic::Stage::kExit) continue;
+    advice.target = car.temporary_id;
+    pass_on(advice, batch, frame);
+  }
+}
+
+void EngineNode::pass_on(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame) {
+  if (config_.radio.modelled) {
+    send(advice, batch, frame);
+  } else {
+    advice_.push_back(advice);
+  }
+}
+
+EngineNode::Fate EngineNode::fate_of(const traffic::Advice& advice, std::uint32_t vehicle, AdviceFate fate) {
+  return {vehicle,     advice.rsu,      advice.sequence, fate, advice.issued, advice.acceleration_mps2,
+          advice.kind, advice.speed_mps};
 }
 
 void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame) {
@@ -182,9 +228,8 @@ void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch,
   if (!reception.lost) {
     inbox_.add(reception, hop, advice);
   } else if (!advice.release) {
-    const AdviceFate fate = fate_of(*reception.lost);
-    fates_.push_back(
-        {target->car->vehicle, advice.rsu, advice.sequence, fate, advice.issued, advice.acceleration_mps2});
+    const AdviceFate fate = loss_fate(*reception.lost);
+    fates_.push_back(fate_of(advice, target->car->vehicle, fate));
     engine_.miss(advice, static_cast<std::uint8_t>(fate));
   }
 }
@@ -221,8 +266,7 @@ void EngineNode::deliver(Step now) {
       advice_.push_back(advice);
     } else if (!advice.release) {
       const auto target = engine_.equipped_car(advice.target);
-      fates_.push_back({target ? target->car->vehicle : traffic::kNoVehicle, advice.rsu, advice.sequence,
-                        AdviceFate::kDuplicate, advice.issued, advice.acceleration_mps2});
+      fates_.push_back(fate_of(advice, target ? target->car->vehicle : traffic::kNoVehicle, AdviceFate::kDuplicate));
     }
   }
 }
@@ -236,6 +280,8 @@ void EngineNode::report_fates(TrafficBatch& traffic) const {
     traffic.fate_again.push_back(0);
     traffic.fate_issued.push_back(known.issued);
     traffic.fate_commanded_mps2.push_back(known.commanded_mps2);
+    traffic.fate_kind.push_back(static_cast<std::uint8_t>(known.kind));
+    traffic.fate_speed_mps.push_back(known.speed_mps);
   }
 }
 

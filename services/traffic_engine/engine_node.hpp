@@ -6,6 +6,7 @@
 #include "common/bus/batches.hpp"
 #include "common/core/expected.hpp"
 #include "common/intersection/signal_promise.hpp"
+#include "common/messages/rsc.hpp"
 #include "common/radio/between_cars.hpp"
 #include "common/radio/channel_load.hpp"
 #include "common/radio/inbox.hpp"
@@ -40,6 +41,8 @@ class EngineNode {
     AdviceFate fate{};
     Step issued = -1;
     double commanded_mps2 = 0.0;
+    traffic::AdviceKind kind = traffic::AdviceKind::kAcceleration;
+    double speed_mps = traffic::kNoSpeed;
   };
   /// That a car hears an RSU, whatever it says.
   struct Hearing {
@@ -52,7 +55,12 @@ class EngineNode {
   void hear_spat(const RoadsideBatch& batch, std::size_t frame);
   [[nodiscard]] Hop hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& batch, std::size_t frame);
   void hear_coordination(const RoadsideBatch& batch, std::size_t frame);
+  /// A speed for a lane is for every car with a unit that is before its line.
+  void say_on_lane(const LaneSpeed& word, traffic::Advice advice, const RoadsideBatch& batch, std::size_t frame);
+  /// Hands an advice to the radio, or to the engine at once.
+  void pass_on(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame);
   void send(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame);
+  [[nodiscard]] static Fate fate_of(const traffic::Advice& advice, std::uint32_t vehicle, AdviceFate fate);
   /// Takes the advice that has reached its car by `now`.
   void deliver(Step now);
   void report_fates(TrafficBatch& traffic) const;

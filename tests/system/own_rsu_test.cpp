@@ -130,6 +130,71 @@ TEST_F(OwnRsu, ThatSaysImpossibleThingsIsRefusedWithTheReason) {
   EXPECT_EQ(refused.at("unknown_vehicle"), 500);
 }
 
+TEST_F(OwnRsu, ThatSaysImpossibleThingsOfTheOtherKindsIsRefusedToo) {
+  const Finished run = run_python(
+      "nonsense_kinds",
+      "[answer.advise_speed(7, v) for v in (float('nan'), -1.0, 200.0, 10.0)]\n"
+      "            [answer.advise_profile(7, p) for p in ([], [(0.1, 0.0)] * 33, [(0.1, 1.0), (0.1, float('inf'))],"
+      " [(0.1, 0.0)])]\n"
+      "            [answer.lane_speed('WC', v) for v in (float('nan'), -1.0, 200.0)]");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const json refused = json::parse(run.out).at("summary").at("advice_refused");
+  EXPECT_EQ(refused.at("malformed"), 9 * 500);
+  EXPECT_EQ(refused.at("unknown_vehicle"), 2 * 500);
+}
+
+TEST_F(OwnRsu, GivesTheSameBytesInBothLanguagesForEveryKindOfAdvice) {
+  const std::string cpp = R"(#include <lukou/rsu.hpp>
+class Kinds : public lukou::RsuAlgorithm {
+  void on_step(const lukou::RsuView& heard, lukou::RsuAnswer& answer) override {
+    if (heard.step % 10 != 0) return;
+    for (std::size_t i = 0; i < heard.lanes.size(); ++i) {
+      for (const lukou::HeardCar& car : heard.lanes[i].cars) {
+        if (i % 3 == 0) answer.advise_profile(car.id, {{{5, 0.3}, {7, -0.4}}, lukou::Binding::kFollowing});
+        if (i % 3 == 1) answer.advise_speed(car.id, {0.8 * heard.map.speed_limit_mps, 12, lukou::Binding::kFollowing});
+      }
+      if (i % 3 == 2) answer.lane_speed(static_cast<lukou::Lane>(i), 12.0, 15);
+    }
+  }
+};
+int main(int argc, char** argv) {
+  return lukou::run_rsu(argc, argv, [](const lukou::RsuSetup&) { return std::make_unique<Kinds>(); });
+}
+)";
+  const std::string build =
+      "cmake_minimum_required(VERSION 3.20)\nproject(kinds CXX)\nfind_package(Lukou REQUIRED)\n"
+      "add_executable(kinds kinds.cpp)\ntarget_link_libraries(kinds Lukou::rsu)\n";
+  ASSERT_EQ(shell("mkdir kinds && cat > kinds/kinds.cpp << 'END'\n" + cpp +
+                  "END\ncat > kinds/CMakeLists.txt << 'END'\n" + build + "END\n")
+                .code,
+            0);
+  const Finished built = shell("cmake -S kinds -B kinds/build -DLukou_DIR=" + prefix() +
+                                   "/" LUKOU_LIBRARY_FOLDER "/cmake/Lukou && cmake --build kinds/build",
+                               300.0);
+  ASSERT_EQ(built.code, 0) << built.out << built.err;
+  write_python("kinds.py",
+               "pass\n        if heard.step % 10 == 0:\n            for i, lane in enumerate(heard.lanes):\n"
+               "                for car in lane.cars:\n"
+               "                    if i % 3 == 0: answer.advise_profile(car.id, [(0.5, 0.3), (0.7, -0.4)], "
+               "lukou.Binding.FOLLOWING)\n"
+               "                    if i % 3 == 1: answer.advise_speed(car.id, 0.8 * heard.map.speed_limit_mps, 1.2, "
+               "lukou.Binding.FOLLOWING)\n"
+               "                if i % 3 == 2: answer.lane_speed(lane.name, 12.0, 1.5)");
+  const std::string run =
+      "lukou run paper --duration 200 --quiet --set record.guidance=true ";
+  const Finished in_cpp = shell(run + "--rsu ./kinds/build/kinds --out kinds_cpp");
+  ASSERT_EQ(in_cpp.code, 0) << in_cpp.err;
+  const Finished twin = shell(run + "--rsu '" + kPython + " kinds.py' --out kinds_python");
+  ASSERT_EQ(twin.code, 0) << twin.err;
+  EXPECT_EQ(shell("for file in car stop road stop_time stops guidance; do cmp kinds_cpp/$file.csv "
+                  "kinds_python/$file.csv || exit 1; done && cmp kinds_cpp/summary.json kinds_python/summary.json")
+                .code,
+            0);
+  const json kinds = json::parse(shell("cat kinds_cpp/summary.json").out).at("advice_by_kind");
+  EXPECT_EQ(kinds.at("acceleration"), 0);
+  for (const char* kind : {"profile", "speed", "lane_speed"}) EXPECT_GT(kinds.at(kind).get<int>(), 100) << kind;
+}
+
 TEST_F(OwnRsu, ThatSaysAMillionThingsAtOnceIsHeardOut) {
   const Finished run = run_python(
       "flood", "heard.step == 100 and answer.advise_all(np.arange(1000000, dtype=np.uint64), np.zeros(1000000))");

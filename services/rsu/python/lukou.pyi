@@ -188,6 +188,12 @@ class Advice:
     @property
     def acceleration_mps2(self) -> Optional[float]: ...
     @property
+    def segments(self) -> Optional[list[tuple[float, float]]]:
+        """Of a profile: (seconds, m/s2) one after the other."""
+    @property
+    def speed_mps(self) -> Optional[float]:
+        """Of an advised speed."""
+    @property
     def lifetime_s(self) -> Optional[float]: ...
     @property
     def binding(self) -> Optional[Binding]: ...
@@ -211,6 +217,16 @@ class RsuAnswer:
         lifetime_s: float = 0.5,
         binding: Binding = Binding.GUARD,
     ) -> None: ...
+    def advise_profile(
+        self, car: int, segments: Sequence[tuple[float, float]], binding: Binding = Binding.GUARD
+    ) -> None:
+        """Accelerations one after the other, from now on: (seconds, m/s2). At most 32."""
+    def advise_speed(
+        self, car: int, speed_mps: float, lifetime_s: float = 0.5, binding: Binding = Binding.GUARD
+    ) -> None:
+        """The car's own unit makes for this speed."""
+    def lane_speed(self, lane: str, speed_mps: float, lifetime_s: float = 0.5) -> None:
+        """Cars on this lane that hear it do not wish to drive faster, as long as they drive on their own."""
     def release(self, car: int) -> None: ...
     def request_green(self, lanes: Sequence[str], lifetime_s: float) -> None:
         """Wants exactly these lanes green from now on until the lifetime ends or a newer request comes."""

@@ -53,13 +53,13 @@ auto members(TrafficBatch& b) {
          missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped,
          entered_speed, entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
          fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded, answers, guard, overflow,
-         heard, requests, reception] = b;
+         heard, requests, reception, fate_kind, fate_speed] = b;
   return std::tuple_cat(
       std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance,
                bound_by, missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane,
                entered_equipped, entered_speed, entered_desired, crossed, crossed_time, crossed_aspect,
                crossed_committed, left, left_time, fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued,
-               fate_commanded, answers, guard, overflow, heard, requests),
+               fate_commanded, answers, guard, overflow, heard, requests, fate_kind, fate_speed),
       members(reception));
 }
 

@@ -42,9 +42,10 @@ TEST_F(Events, AreWrittenAsDocumented) {
             "812,81.2,9,SC,1,500,50.0,12.25,30.1,lost_burst,expired,lost_burst\n");
   // Used in step 115: it acts from t_114 on, 0.2 s after its issue.
   EXPECT_EQ(content("guidance.csv"),
-            "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step\n"
-            "120,12.0,112,11.2,0,77,9,SC,-0.37,applied,0.2,119\n"
-            "121,12.1,,,1,3,,,,malformed,,\n");
+            "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step,kind,"
+            "commanded_speed_mps\n"
+            "120,12.0,112,11.2,0,77,9,SC,-0.37,applied,0.2,119,acceleration,\n"
+            "121,12.1,,,1,3,,,,malformed,,,acceleration,\n");
   const auto entries = tables.value().entries();
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(entries[0].name, "guidance.csv");
@@ -76,6 +77,23 @@ TEST_F(Events, OfRequestsAreWrittenAsDocumented) {
   ASSERT_EQ(tables.value().entries().size(), 1U);
   EXPECT_EQ(tables.value().entries()[0].name, "requests.csv");
   EXPECT_EQ(tables.value().entries()[0].rows, 7);
+}
+
+TEST_F(Events, SayWhichSpeedAnAdviceAskedFor) {
+  auto tables = EventTables::create(folder(), {.guidance = true});
+  ASSERT_TRUE(tables.ok()) << tables.error().text();
+  SettledAdvice speed{.settled = 120, .issued = 112, .vehicle = 9, .lane = Lane{4}, .commanded_mps2 = -0.5};
+  speed.fate = "applied";
+  speed.first_used = 113;
+  speed.last_used = 117;
+  speed.kind = "speed";
+  speed.speed_mps = 12.5;
+  tables.value().add(speed);
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_EQ(content("guidance.csv"),
+            "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step,kind,"
+            "commanded_speed_mps\n"
+            "120,12.0,112,11.2,0,0,9,SC,-0.5,applied,0.0,117,speed,12.5\n");
 }
 
 TEST_F(Events, AreLeftOutWhenNobodyAskedForThem) {

@@ -206,6 +206,30 @@ TEST(RsuNode, RefusesAdviceThatNoMessageCanCarry) {
   EXPECT_EQ(decode_rsc(out.frames.payload_of(frames[0])).value().vehicles.size(), 1U);
 }
 
+TEST(RsuNode, SaysSpeedsForLanesAfterItsCarsAtMostEightAFrame) {
+  RsuNode node = node_with([](const RsuView&, RsuAnswer& answer) {
+    for (std::uint8_t lane = 0; lane < kLanes; ++lane) answer.lane_speed(static_cast<Lane>(lane), 10.0, 5);
+    answer.lane_speed(Lane{3}, std::numeric_limits<double>::quiet_NaN(), 5);
+    answer.advise_profile(TemporaryId{1}, {.segments = {{5, 1.0}, {5, -1.0}}});
+    answer.advise_speed(TemporaryId{2}, {.speed_mps = 9.0, .lifetime = 5});
+    answer.advise_profile(TemporaryId{3}, {.segments = std::vector<AccelerationSegment>(40, {1, 0.0})});
+  });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  EXPECT_EQ(out.answers_malformed, 2U);
+  const auto frames = frames_of(out, FrameKind::kRsc);
+  ASSERT_EQ(frames.size(), 3U);
+  const auto said = [&](std::size_t i) { return decode_rsc(out.frames.payload_of(frames[i])).value(); };
+  ASSERT_EQ(said(0).vehicles.size(), 2U);
+  EXPECT_EQ(said(0).vehicles[0].path->later.size(), 1U);
+  EXPECT_EQ(said(0).vehicles[1].path->speed_mps, 9.0);
+  EXPECT_EQ(said(1).lanes.size(), 8U);
+  ASSERT_EQ(said(2).lanes.size(), 4U);
+  EXPECT_EQ(said(2).lanes[3].lane, Lane{11});
+  EXPECT_EQ(said(2).node, 1);
+}
+
 TEST(RsuNode, DropsAndCountsWhatItCannotDecode) {
   std::size_t cars = 0;
   RsuNode node = node_with([&](const RsuView& heard, RsuAnswer&) { cars = heard.lanes[1].cars.size(); });
