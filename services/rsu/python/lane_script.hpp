@@ -27,6 +27,7 @@ class ScriptedView {
       : lanes_(std::move(lanes)) {
     view_.actuation = actuation;
     view_.promised_to = now;
+    view_.request_acts = now + 11;  // with the default promise
     view_.step = now;
     view_.time_s = time_s(now);
     view_.map = map;

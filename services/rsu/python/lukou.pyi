@@ -140,6 +140,14 @@ class LaneView:
     def green_windows(self) -> list[GreenWindow]: ...
     def green_at_or_after(self, time_s: float, tail_s: float = 0.0) -> Optional[GreenWindow]: ...
     def standing_queue(self, standing_mps: float = ...) -> QueueEstimate: ...
+    def seen_cars(self) -> list[SeenCar]:
+        """The cars that were heard or sensed, front to back, each once: reports less than 3 m apart are of one car."""
+
+class SeenCar:
+    @property
+    def distance_m(self) -> float: ...
+    @property
+    def speed_mps(self) -> float: ...
 
 class CarTable:
     """The heard cars of all lanes as arrays of equal length, lane after lane, front to back."""
@@ -175,6 +183,9 @@ class RsuView:
     @property
     def promised_to_s(self) -> float:
         """Up to this time the heads are promised: no request changes them any more."""
+    @property
+    def request_acts_s(self) -> float:
+        """From then on a request of this step can change the heads."""
     def promised_green(self) -> list[str]:
         """The lanes whose heads show green then."""
     @property
@@ -241,6 +252,21 @@ def time_to_line_s(distance_m: float, speed_mps: float, acceleration_mps2: float
 
 def arrival_acceleration_mps2(distance_m: float, speed_mps: float, time_s: float) -> Optional[float]:
     """The constant acceleration that brings a car to the line in exactly time_s; None if it would have to roll back."""
+
+def smoothest_arrival(
+    distance_m: float, speed_mps: float, time_s: float, end_speed_mps: Optional[float] = None
+) -> tuple[float, float]:
+    """The arrival with the least integral of a^2: (acceleration now [m/s2], its change [m/s3]). ValueError: time_s <= 0."""
+
+def cruise_after_braking_mps(
+    distance_m: float, speed_mps: float, time_s: float, braking_mps2: float
+) -> Optional[float]:
+    """The speed to brake to, then hold, to arrive in time; None if it would be late without braking, or have to stand."""
+
+def cruise_after_speeding_up_mps(
+    distance_m: float, speed_mps: float, time_s: float, acceleration_mps2: float
+) -> Optional[float]:
+    """The speed to speed up to, then hold, to arrive in time; None if it would be early without, or late even so."""
 
 def has_hard_conflict(lanes: Sequence[str]) -> bool:
     """Whether two of the lanes cross: they can never be green together."""

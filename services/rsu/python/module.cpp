@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "services/rsu/process/run_rsu.hpp"
+#include "services/rsu/python/helpers.hpp"
 #include "services/rsu/python/lane_script.hpp"
 #include "services/rsu/sdk/planning.hpp"
+#include "services/rsu/sdk/seen_cars.hpp"
 
 // The SDK for Python: the same words as in C++ (services/rsu/sdk), described for people in lukou.pyi. The loop stays in
 // C++; Python's lock is held during on_step alone.
@@ -320,10 +322,19 @@ PYBIND11_MODULE(lukou, m) {
           "green_at_or_after",
           [](const PyLane& lane, double at_s, double tail_s) { return green_at_or_after(lane.get(), at_s, tail_s); },
           py::arg("time_s"), py::arg("tail_s") = 0.0)
+      .def("seen_cars",
+           [](const PyLane& lane) {
+             std::vector<SeenCar> cars;
+             seen_cars(lane.get(), cars);
+             return cars;
+           })
       .def(
           "standing_queue",
           [](const PyLane& lane, double standing_mps) { return standing_queue(lane.get(), standing_mps); },
           py::arg("standing_mps") = 5.0 / 3.6);
+  py::class_<SeenCar>(m, "SeenCar")
+      .def_readonly("distance_m", &SeenCar::distance_m)
+      .def_readonly("speed_mps", &SeenCar::speed_mps);
   py::class_<CarTable>(m, "CarTable")
       .def_readonly("id", &CarTable::id)
       .def_readonly("lane", &CarTable::lane)
@@ -337,6 +348,8 @@ PYBIND11_MODULE(lukou, m) {
       .def_property_readonly("map", [](const PyView& view) { return view.frame->get().map; })
       .def_property_readonly("actuation", [](const PyView& view) { return view.frame->get().actuation; })
       .def_property_readonly("promised_to_s", [](const PyView& view) { return time_s(view.frame->get().promised_to); })
+      .def_property_readonly("request_acts_s",
+                             [](const PyView& view) { return time_s(view.frame->get().request_acts); })
       .def("promised_green", [](const PyView& view) { return names_of(promised_green(view.frame->get())); })
       .def_property_readonly("cars", [](const PyView& view) { return CarTable(view.frame->get()); })
       .def_property_readonly("lanes", [](const PyView& view) {
@@ -374,14 +387,10 @@ PYBIND11_MODULE(lukou, m) {
       .def_property_readonly("lifetime_s", [](const SignalRequest& request) { return time_s(request.lifetime); });
   py::class_<RsuAlgorithm, PyAlgorithm>(m, "RsuAlgorithm").def(py::init<>());
 
-  m.def("time_to_line_s", &time_to_line_s, py::arg("distance_m"), py::arg("speed_mps"), py::arg("acceleration_mps2"),
-        py::arg("cruise_mps"));
-  m.def("arrival_acceleration_mps2", &arrival_acceleration_mps2, py::arg("distance_m"), py::arg("speed_mps"),
-        py::arg("time_s"));
+  bind_helpers(m);
   m.def(
       "has_hard_conflict", [](const std::vector<std::string>& lanes) { return has_hard_conflict(lanes_named(lanes)); },
       py::arg("lanes"));
-  m.def("carriable_mps2", &carriable_mps2, py::arg("wanted_mps2"), py::arg("limit_mps2"));
 
   py::class_<LaneScript>(m, "LaneScript")
       .def(py::init([](std::vector<HeardCar> cars, std::vector<SensedCar> sensed, Aspect aspect, double aspect_since_s,
