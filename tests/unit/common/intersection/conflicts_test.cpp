@@ -126,7 +126,8 @@ TEST(HardConflicts, AreTheCrossingStreams) {
   // turns into an exit lane beside its own.
   const LaneSet crossing = hard_conflicts(*lane_named("WC"));
   for (const char* lane : {"SC", "NC", "SL"}) EXPECT_TRUE(crossing.contains(*lane_named(lane))) << lane;
-  for (const char* lane : {"WL", "WR", "EC", "ER", "EL", "NL"}) EXPECT_FALSE(crossing.contains(*lane_named(lane))) << lane;
+  for (const char* lane : {"WL", "WR", "EC", "ER", "EL", "NL"})
+    EXPECT_FALSE(crossing.contains(*lane_named(lane))) << lane;
 }
 
 TEST(HardConflicts, OfASetAreThoseOfItsLanes) {
