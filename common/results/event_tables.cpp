@@ -81,6 +81,22 @@ void EventTables::add(const SettledAdvice& row) {
   table.end_row();
 }
 
+void EventTables::add(const MissedDeadline& row) {
+  if (!guidance_) return;
+  TableWriter& table = *guidance_;
+  table.whole(row.known);
+  table.tenths(row.known);
+  table.whole(row.answered);
+  table.tenths(row.answered);
+  table.count(row.rsu);
+  for (int empty = 0; empty < 4; ++empty) table.name("");  // no frame, no car, no command
+  table.name(kDeadlineMissed);
+  table.real(static_cast<double>(row.took_ms) / 1e3);
+  table.name("");
+  if (advice_kinds_) table.name(""), table.name("");
+  table.end_row();
+}
+
 Expected<Done> EventTables::flush() {
   for (std::optional<TableWriter>* table : {&stops_, &guidance_}) {
     if (!*table) continue;

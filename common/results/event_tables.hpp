@@ -36,6 +36,7 @@ class EventTables {
   /// Rows for a table that was not asked for are dropped.
   void add(const FinishedStop& row);
   void add(const SettledAdvice& row);
+  void add(const MissedDeadline& row);
 
   Expected<Done> flush();
   Expected<Done> sync();

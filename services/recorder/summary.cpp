@@ -61,7 +61,8 @@ Json fates_json(const RunFigures& figures, const std::pair<AdviceFate, const cha
 
 }  // namespace
 
-std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled) {
+std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
+                         std::optional<std::uint64_t> deadline_misses) {
   Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
@@ -84,6 +85,7 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
     json["advice_lost"] = fates_json(figures, kLost);
     json["advice_dropped"] = fates_json(figures, kDropped);
   }
+  if (deadline_misses) json["rsu_deadline_misses"] = *deadline_misses;
   json["guard_interventions"] = figures.guard_interventions;
   json["collisions"] = figures.collisions;
   json["reversals"] = figures.reversals;

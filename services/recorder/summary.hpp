@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "common/measures/run_measures.hpp"
@@ -7,7 +9,8 @@
 namespace lukou {
 
 /// summary.json: every figure of docs/results.md; a mean over no car is null. `radio_modelled`: with what the radio did
-/// to advice.
-std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled);
+/// to advice. `deadline_misses`: steps that took an RSU longer than a step; empty if none is measured.
+std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
+                         std::optional<std::uint64_t> deadline_misses = {});
 
 }  // namespace lukou

@@ -97,6 +97,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   hear(k, air, out);
   look(k, air.sensed);
   think(k);
+  out.computing_ms = answer();
   say_spat(k, out.frames);
   if (k % kMapEvery == 0) say_map(k, out.frames);
   say_guidance(k, out);
@@ -197,8 +198,17 @@ void RsuNode::think(Step k) {
                       .aspect_since = signals_.since(lane),
                       .changes = signals_.changes(lane)};
   }
+}
+
+std::uint32_t RsuNode::answer() {
   answer_.clear();
+  const bool measured = config_.computing.measured && wall_s_;
+  const double begin_s = measured ? wall_s_() : 0.0;
   algorithm_->on_step(view_, answer_);
+  if (!measured) return config_.computing.declared_ms;
+  // Whole milliseconds: as they are recorded, so that a replay has exactly them.
+  const double took_ms = std::clamp((wall_s_() - begin_s) * 1e3, 0.0, kLatencyMax_ms);
+  return static_cast<std::uint32_t>(took_ms + 0.5);
 }
 
 void RsuNode::say_spat(Step k, Frames& frames) {
@@ -228,14 +238,15 @@ void RsuNode::say_map(Step k, Frames& frames) {
 void RsuNode::say_guidance(Step k, RoadsideBatch& out) {
   guidance_.second_mark_ms = second_mark_ms(k);
   for (const RsuAnswer::Item& item : answer_.items()) {
-    VehicleCoordination vehicle{.vehicle = static_cast<std::uint64_t>(item.car),
-                                .path = guided_path(item, cars_.report(item.car)),
-                                .binding = binding_of(item)};
+    VehicleCoordination& vehicle = guidance_.vehicles.emplace_back();
+    vehicle.vehicle = static_cast<std::uint64_t>(item.car);
+    vehicle.path = guided_path(item, cars_.report(item.car));
+    vehicle.binding = binding_of(item);
     if (vehicle.path && !fits(*vehicle.path)) {
+      guidance_.vehicles.pop_back();
       ++out.answers_malformed;
       continue;
     }
-    guidance_.vehicles.push_back(std::move(vehicle));
     if (guidance_.vehicles.size() == kMaxCoordinations) send_guidance(out.frames);
   }
   if (!guidance_.vehicles.empty()) send_guidance(out.frames);

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/bus/batches.hpp"
@@ -30,6 +32,8 @@ class RsuNode {
   /// Requires an algorithm.
   RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm);
 
+  /// Where the node reads the wall clock [s] if its computing time is to be measured; without one it counts as 0.
+  void measure_with(std::function<double()> wall_s) { wall_s_ = std::move(wall_s); }
   /// The scenario after the directives of the next step: takes over the radio and how good its
   /// sensors are, nothing else.
   void change(const RsuConfig& config);
@@ -51,6 +55,8 @@ class RsuNode {
   void understand(Step k, std::uint8_t kind, std::span<const std::uint8_t> payload, RoadsideBatch& out);
   void look(Step k, const SensedColumns& sensed);
   void think(Step k);
+  /// Lets the algorithm answer; returns by how much that delays the answer [ms].
+  std::uint32_t answer();
   void say_spat(Step k, Frames& frames);
   void say_map(Step k, Frames& frames);
   void say_guidance(Step k, RoadsideBatch& out);
@@ -62,6 +68,7 @@ class RsuNode {
 
   RsuConfig config_;
   std::unique_ptr<RsuAlgorithm> algorithm_;
+  std::function<double()> wall_s_;
   Modem modem_;
   ChannelLoad load_;
   StationSpeed speeds_;            ///< of the cars, if the latency asks for them

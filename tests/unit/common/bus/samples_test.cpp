@@ -33,8 +33,9 @@ auto members(ReceptionReport& r) {
 }
 
 auto members(RoadsideBatch& b) {
-  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception] = b;
-  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers), members(frames), members(reception));
+  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception, computing] = b;
+  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers, computing), members(frames),
+                        members(reception));
 }
 
 auto members(SignalBatch& b) {
@@ -47,13 +48,13 @@ auto members(TrafficBatch& b) {
          missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped,
          entered_speed, entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
          fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded, answers, guard, overflow,
-         heard, reception, fate_kind, fate_speed] = b;
+         heard, reception, fate_kind, fate_speed, computing] = b;
   return std::tuple_cat(
       std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance,
                bound_by, missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane,
                entered_equipped, entered_speed, entered_desired, crossed, crossed_time, crossed_aspect,
                crossed_committed, left, left_time, fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued,
-               fate_commanded, answers, guard, overflow, heard, fate_kind, fate_speed),
+               fate_commanded, answers, guard, overflow, heard, fate_kind, fate_speed, computing),
       members(reception));
 }
 

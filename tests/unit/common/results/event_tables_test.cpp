@@ -70,6 +70,14 @@ TEST_F(Events, SayTheKindOfAdviceIfAsked) {
   EXPECT_EQ(guidance_columns_in(folder()), guidance_columns(true));
 }
 
+TEST_F(Events, HaveARowForADeadlineThatAnRsuMissed) {
+  auto tables = EventTables::create(folder(), {.guidance = true, .advice_kinds = true});
+  ASSERT_TRUE(tables.ok()) << tables.error().text();
+  tables.value().add(MissedDeadline{.known = 121, .answered = 120, .rsu = 1, .took_ms = 137});
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_EQ(content("guidance.csv"), guidance_columns(true) + "\n121,12.1,120,12.0,1,,,,,deadline_missed,0.137,,,\n");
+}
+
 TEST_F(Events, AreLeftOutWhenNobodyAskedForThem) {
   auto tables = EventTables::create(folder(), {});
   ASSERT_TRUE(tables.ok());

@@ -191,6 +191,30 @@ TEST(RsuNode, DropsAndCountsWhatItCannotDecode) {
   EXPECT_EQ(cars, 1U);
 }
 
+std::uint32_t computing_ms(const ComputingTime& computing, double takes_s) {
+  RsuConfig of = config();
+  of.computing = computing;
+  double now_s = 5.0;
+  RsuNode node(of, std::make_unique<Scripted>([&](const RsuView&, RsuAnswer&) { now_s += takes_s; }));
+  node.measure_with([&] { return now_s; });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  return out.computing_ms;
+}
+
+TEST(RsuNode, SaysHowLongItComputedInWholeMilliseconds) {
+  EXPECT_EQ(computing_ms({.measured = true}, 0.1234), 123U);
+  EXPECT_EQ(computing_ms({.measured = true}, 0.1236), 124U);
+  EXPECT_EQ(computing_ms({.measured = true}, 0.0004), 0U);
+  EXPECT_EQ(computing_ms({.measured = true}, 1000.0), 50'000U) << "cut where the radio cuts";
+}
+
+TEST(RsuNode, SaysTheDeclaredTimeWhateverItTook) {
+  EXPECT_EQ(computing_ms({.declared_ms = 20}, 0.3), 20U);
+  EXPECT_EQ(computing_ms({}, 0.3), 0U);
+}
+
 TEST(RsuNodeDeathTest, EndsTheProgramWithoutAPromiseForItsStep) {
   RsuNode node = idle_node();
   RoadsideBatch out;
