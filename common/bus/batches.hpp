@@ -53,6 +53,7 @@ struct RoadsideBatch {
   std::uint32_t answers_malformed = 0;  ///< the algorithm's advice that no message can carry: refused, not sent
   ReceptionReport reception;            ///< uplink; empty under the ideal radio
   std::uint32_t requests_refused = 0;   ///< requests for greens that nobody takes: the plan is fixed
+  std::uint32_t computing_ms = 0;       ///< delays whatever the algorithm answered in this step; 0 if its time is free
 };
 
 /// RSU to signal controller: the greens that it asks for at t_step. Only in a run with signals.actuation.
@@ -211,6 +212,8 @@ struct TrafficBatch {
   // Two more columns of the fates.
   std::vector<std::uint8_t> fate_kind;  ///< AdviceKind
   std::vector<double> fate_speed_mps;   ///< of the kinds that ask for a speed; else NaN
+
+  std::vector<std::uint32_t> computing_ms;  ///< per RSU: what delayed its answer of step - 1; 0 if it is silent
 
   void clear();
 };

@@ -95,6 +95,7 @@ void traffic_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.fate_again, sample.fate_again), move(plain.fate_issued, sample.fate_issued);
   move(plain.fate_commanded_mps2, sample.fate_commanded_mps2), move(plain.heard_epoch, sample.heard_epoch);
   move(plain.fate_kind, sample.fate_kind), move(plain.fate_speed_mps, sample.fate_speed_mps);
+  move(plain.computing_ms, sample.computing_ms);
 }
 
 template <class Plain, class Sample, class Move>
@@ -126,6 +127,7 @@ void lend(const RoadsideBatch& batch, lukou_bus_Roadside& sample, Scratch&) {
   sample.frames_heard = batch.frames_heard;
   sample.frames_malformed = batch.frames_malformed;
   sample.answers_malformed = batch.answers_malformed;
+  sample.computing_ms = batch.computing_ms;
   frames_columns(batch.frames, sample.frames, kLend);
   reception_columns(batch.reception, sample.reception, kLend);
   sample.requests_refused = batch.requests_refused;
@@ -138,6 +140,7 @@ void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch) {
   batch.frames_heard = sample.frames_heard;
   batch.frames_malformed = sample.frames_malformed;
   batch.answers_malformed = sample.answers_malformed;
+  batch.computing_ms = sample.computing_ms;
   frames_columns(batch.frames, sample.frames, kCopy);
   reception_columns(batch.reception, sample.reception, kCopy);
   batch.requests_refused = sample.requests_refused;

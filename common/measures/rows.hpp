@@ -67,4 +67,14 @@ struct RequestRow {
   RequestOutcome outcome = RequestOutcome::kAccepted;
 };
 
+/// A row of guidance.csv, too: an RSU computed longer than a step.
+struct MissedDeadline {
+  Step known = 0;     ///< when the engine heard the answer
+  Step answered = 0;  ///< the step that the RSU answered
+  std::uint32_t rsu = 0;
+  std::uint32_t took_ms = 0;
+};
+/// Stands in the place of a fate.
+inline constexpr std::string_view kDeadlineMissed = "deadline_missed";
+
 }  // namespace lukou

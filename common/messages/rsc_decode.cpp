@@ -1,5 +1,4 @@
 #include <bit>
-#include <utility>
 
 #include "common/messages/map.hpp"
 #include "common/messages/rsc.hpp"
@@ -131,7 +130,7 @@ void take_later(const RawVehicle& raw, const wire::RawPosition& reference, Guide
   }
 }
 
-std::optional<GuidedPath> path_of(const RawVehicle& raw, const wire::RawPosition& reference, wire::Check& check) {
+void take_path(const RawVehicle& raw, const wire::RawPosition& reference, GuidedPath& path, wire::Check& check) {
   const RawPoint& first = raw.first;
   const bool speed_alone = raw.points == 1 && first.acceleration == kAbsent && first.speed != kAbsent;
   wire::check_offset(check, "path.position", first.position);
@@ -144,13 +143,12 @@ std::optional<GuidedPath> path_of(const RawVehicle& raw, const wire::RawPosition
     check.optional("path.speed_2cmps", first.speed, 0, wire::kSpeedUnavailable);
   }
   check.optional("path.estimated_time_10ms", first.estimated_time, 0, kEstimatedTimeMax);
-  if (!check.ok()) return std::nullopt;
-  GuidedPath path{.centre = centre_of(first, reference, check),
-                  .acceleration_mps2 = speed_alone ? 0.0 : static_cast<double>(first.acceleration) / 100.0,
-                  .lifetime_ms = static_cast<std::uint32_t>(raw.lifetime) * kLifetimeUnit_ms};
+  if (!check.ok()) return;
+  path.centre = centre_of(first, reference, check);
+  path.acceleration_mps2 = speed_alone ? 0.0 : static_cast<double>(first.acceleration) / 100.0;
+  path.lifetime_ms = static_cast<std::uint32_t>(raw.lifetime) * kLifetimeUnit_ms;
   if (speed_alone) path.speed_mps = wire::speed_mps(first.speed);
   if (!raw.later.empty()) take_later(raw, reference, path, check);
-  return path;
 }
 
 /// Adds the car to the message, or says in `check` what is wrong with it.
@@ -162,11 +160,11 @@ void take_vehicle(const RawVehicle& raw, const wire::RawPosition& reference, Coo
   check.required("binding", raw.binding, 0, 1);
   if (raw.has_suggestion) check.required("suggestion.behavior_bits", raw.behavior, 0, kBehaviorMax);
   check.optional("suggestion.lifetime_10ms", raw.lifetime, 1, kLifetimeUnavailable);
-  VehicleCoordination vehicle{.vehicle = raw.id, .path = {}, .binding = Binding::kGuard};
-  if (raw.points > 0) vehicle.path = path_of(raw, reference, check);
   if (!check.ok()) return;
+  VehicleCoordination& vehicle = message.vehicles.emplace_back();
+  vehicle.vehicle = raw.id;
   vehicle.binding = static_cast<Binding>(raw.binding);
-  message.vehicles.push_back(std::move(vehicle));
+  if (raw.points > 0) take_path(raw, reference, vehicle.path.emplace(), check);
 }
 
 /// The same for a lane. The nodes and lanes are those of our MAP.

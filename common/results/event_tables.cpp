@@ -126,6 +126,23 @@ void EventTables::add(const RequestRow& row) {
   requests_->end_row();
 }
 
+void EventTables::add(const MissedDeadline& row) {
+  if (!guidance_) return;
+  TableWriter& table = *guidance_;
+  table.whole(row.known);
+  table.tenths(row.known);
+  table.whole(row.answered);
+  table.tenths(row.answered);
+  table.count(row.rsu);
+  for (int empty = 0; empty < 4; ++empty) table.name("");  // no frame, no car, no command
+  table.name(kDeadlineMissed);
+  table.real(static_cast<double>(row.took_ms) / 1e3);
+  table.name("");
+  table.name("");
+  table.name("");
+  table.end_row();
+}
+
 Expected<Done> EventTables::flush() {
   for (std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_}) {
     if (!*table) continue;

@@ -42,6 +42,7 @@ class EventTables {
   void add(const FinishedStop& row);
   void add(const SettledAdvice& row);
   void add(const RequestRow& row);
+  void add(const MissedDeadline& row);
 
   Expected<Done> flush();
   Expected<Done> sync();

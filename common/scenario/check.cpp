@@ -28,6 +28,7 @@ class Checker {
     links();
     sensors();
     actuation();
+    computing();
     for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
     return std::move(findings_);
   }
@@ -172,6 +173,27 @@ class Checker {
       const Rsu& rsu = scenario_.rsus(r);
       for (int s = 0; s < rsu.sensors_size(); ++s) {
         sensor(rsu.sensors(s), extended(extended(FieldPath{}, "rsus", r), "sensors", s));
+      }
+    }
+  }
+
+  void computing() {
+    for (int r = 0; r < scenario_.rsus_size(); ++r) {
+      const Computing& said = scenario_.rsus(r).computing();
+      const FieldPath path = extended(extended(FieldPath{}, "rsus", r), "computing");
+      const bool declared = said.mode() == Computing::DECLARED;
+      if (said.mode() == Computing::REAL && scenario_.signals().has_actuation()) {
+        add(extended(path, "mode"),
+            "is REAL, must be FREE or DECLARED in a run with signals.actuation: the measured delay of a request is not "
+            "recorded",
+            {path_to({"signals", "actuation"})});
+      }
+      if (declared && !said.has_declared_ms()) {
+        add(extended(path, "mode"), "is DECLARED, but declared_ms is missing; it takes a number within [1, 5000] ms");
+      } else if (!declared && said.has_declared_ms()) {
+        add(extended(path, "declared_ms"),
+            "is read with mode: DECLARED alone; mode is " + Computing::Mode_Name(said.mode()),
+            {extended(path, "mode")});
       }
     }
   }

@@ -6,6 +6,7 @@
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
 #include "common/scenario/directive_log.hpp"
+#include "common/scenario/scenario_steps.hpp"
 #include "services/lukou/launch/run_request.hpp"
 #include "services/lukou/report/progress.hpp"
 #include "services/lukou/report/summary_text.hpp"
@@ -37,6 +38,12 @@ Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved sc
   if (!log) return log.error();
   if (!log.value().hearings.empty() && arguments.mode != "in-process") {
     return Error{arguments.replay, "an RSU was lost in this session; only --mode in-process replays that"};
+  }
+  const auto measured = scenario::protocol(scenario).rsu_measured;
+  for (const ComputingDelay& delay : log.value().computed) {
+    if (delay.rsu < measured.size() && measured[delay.rsu]) continue;
+    return Error{arguments.replay, "holds measured computing times of RSU " + std::to_string(delay.rsu) +
+                                       "; replay it with --rsu-time real for that RSU"};
   }
   for (const Directive& directive : log.value().sets) {
     const auto changed = scenario::change(scenario, directive.set);

@@ -23,6 +23,7 @@ RecorderConfig recorder_config(const scenario::Resolved& scenario) {
   config.actuated = s.signals().has_actuation();
   config.seed = protocol.seed;
   config.end = protocol.end;
+  config.rsu_measured = protocol.rsu_measured;
   return config;
 }
 

@@ -103,6 +103,7 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
   step_ = traffic.step;
   measures_.add(traffic);
   note_hearing(traffic);
+  note_computing(traffic);
   for (const FinishedCar& car : measures_.finished()) tables_.add_car(car);
   add_events(traffic);
   if (step_ > 0) add_rows();
@@ -171,6 +172,18 @@ void RecorderNode::note_hearing(const TrafficBatch& traffic) {
   }
 }
 
+void RecorderNode::note_computing(const TrafficBatch& traffic) {
+  for (std::uint32_t rsu = 0; rsu < traffic.computing_ms.size(); ++rsu) {
+    const std::uint32_t took_ms = traffic.computing_ms[rsu];
+    if (took_ms == 0 || rsu >= config_.rsu_measured.size() || !config_.rsu_measured[rsu]) continue;
+    const Step answered = step_ - 1;
+    log_.computed.push_back({rsu, answered, took_ms});
+    if (took_ms <= kStep_ms) continue;
+    ++deadline_misses_;
+    if (config_.record_guidance) events_.add(MissedDeadline{step_, answered, rsu, took_ms});
+  }
+}
+
 void RecorderNode::look_for_anomaly(const TrafficBatch& traffic) {
   if (anomaly_) return;
   if (measures_.collisions() > 0) {
@@ -223,8 +236,10 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   if (auto done = tables_.sync(); !done) return done;
   std::optional<RequestFigures> requests;
   if (config_.actuated || requests_.figures().asked > 0) requests = requests_.figures();
+  std::optional<std::uint64_t> misses;
+  if (std::ranges::find(config_.rsu_measured, true) != config_.rsu_measured.end()) misses = deadline_misses_;
   const std::string summary =
-      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any(), requests);
+      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any(), requests, misses);
   const std::string directives = scenario::text(log_);
   if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
   if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;

@@ -51,6 +51,8 @@ class RecorderNode {
   /// Rows of radio.csv for the second that ends now.
   Expected<Done> add_radio_rows();
   void note_hearing(const TrafficBatch& traffic);
+  /// Measured computing times, and the deadlines that they missed.
+  void note_computing(const TrafficBatch& traffic);
   void look_for_anomaly(const TrafficBatch& traffic);
 
   RecorderConfig config_;
@@ -66,6 +68,7 @@ class RecorderNode {
   Step radio_rows_to_ = 0;  ///< the step of the newest rows of radio.csv
   SignalPromise promise_;
   scenario::DirectiveLog log_;
+  std::uint64_t deadline_misses_ = 0;
   std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last
   TrafficBatch picture_;                    ///< the newest step
   std::optional<std::string> anomaly_;

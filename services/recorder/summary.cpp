@@ -75,7 +75,7 @@ Json requests_json(const RequestFigures& requests) {
 }  // namespace
 
 std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
-                         const std::optional<RequestFigures>& requests) {
+                         const std::optional<RequestFigures>& requests, std::optional<std::uint64_t> deadline_misses) {
   Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
@@ -99,6 +99,7 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
     json["advice_dropped"] = fates_json(figures, kDropped);
   }
   if (requests) json["signals"] = requests_json(*requests);
+  if (deadline_misses) json["rsu_deadline_misses"] = *deadline_misses;
   json["guard_interventions"] = figures.guard_interventions;
   json["collisions"] = figures.collisions;
   json["reversals"] = figures.reversals;

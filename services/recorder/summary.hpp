@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -10,7 +11,9 @@ namespace lukou {
 
 /// summary.json: every figure of docs/results.md; a mean over no car is null. `radio_modelled`: with what the radio did
 /// to advice. `requests`: how requests for greens fared, if the controller hears them or anybody asked.
+/// `deadline_misses`: steps that took an RSU longer than a step; empty if none is measured.
 std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
-                         const std::optional<RequestFigures>& requests);
+                         const std::optional<RequestFigures>& requests,
+                         std::optional<std::uint64_t> deadline_misses = {});
 
 }  // namespace lukou

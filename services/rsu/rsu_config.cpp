@@ -127,6 +127,10 @@ Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t
   config.signal_promise = static_cast<Step>(scenario.run().signal_promise_steps());
   config.actuation = scenario::actuation(scenario);
   config.algorithm = from.algorithm();
+  config.computing.measured = from.computing().mode() == scenario::Computing::REAL;
+  if (from.computing().mode() == scenario::Computing::DECLARED) {
+    config.computing.declared_ms = from.computing().declared_ms();
+  }
   config.parameters = parameters_of(from, config.acceleration_max_mps2);
   for (const scenario::Sensor& sensor : from.sensors()) {
     config.sensors.push_back(

@@ -24,6 +24,12 @@ struct RsuSensor {
   double accuracy_m = 0.0;  ///< standard deviation of a position, from its data sheet
 };
 
+/// What the time that the algorithm takes does to what it answers.
+struct ComputingTime {
+  bool measured = false;          ///< on_step is measured
+  std::uint32_t declared_ms = 0;  ///< else this long; 0 = free
+};
+
 /// All that one RSU needs to know before a run.
 struct RsuConfig {
   std::uint32_t rsu = 0;         ///< index in the scenario's list
@@ -38,6 +44,7 @@ struct RsuConfig {
   std::string algorithm;
   AlgorithmParameters parameters;
   std::vector<RsuSensor> sensors;  ///< in the order of the scenario
+  ComputingTime computing;
 };
 
 /// The configuration of the scenario's RSU number `rsu`. The scenario is resolved: every field is present and valid.

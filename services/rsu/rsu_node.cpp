@@ -44,6 +44,9 @@ MapData map_of(const RsuConfig& config) {
   return map;
 }
 
+/// Steps by which a declared computing time delays a request: what is said before the next instant is heard there.
+Step request_delay(const RsuConfig& config) { return config.computing.declared_ms / kStep_ms; }
+
 /// What a message says of its car, if it says enough to place it on the map.
 std::optional<CarReport> report_of(const BasicSafety& message, Step now) {
   if (!message.speed_mps || !message.heading_rad) return std::nullopt;
@@ -99,6 +102,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   hear(k, air, out);
   look(k, air.sensed);
   think(k);
+  out.computing_ms = answer();
   ask_for_green(k, out);
   say_spat(k, out.frames);
   if (k % kMapEvery == 0) say_map(k, out.frames);
@@ -192,7 +196,7 @@ void RsuNode::think(Step k) {
   view_.step = k;
   view_.time_s = time_s(k);
   view_.promised_to = signals_.promised_to();
-  view_.request_acts = k + 1 + config_.signal_promise;
+  view_.request_acts = k + request_delay(config_) + 1 + config_.signal_promise;
   for (std::size_t i = 0; i < view_.lanes.size(); ++i) {
     const auto lane = static_cast<Lane>(i);
     view_.lanes[i] = {.cars = cars_.cars(lane),
@@ -202,8 +206,17 @@ void RsuNode::think(Step k) {
                       .aspect_since = signals_.since(lane),
                       .changes = signals_.changes(lane)};
   }
+}
+
+std::uint32_t RsuNode::answer() {
   answer_.clear();
+  const bool measured = config_.computing.measured && wall_s_;
+  const double begin_s = measured ? wall_s_() : 0.0;
   algorithm_->on_step(view_, answer_);
+  if (!measured) return config_.computing.declared_ms;
+  // Whole milliseconds: as they are recorded, so that a replay has exactly them.
+  const double took_ms = std::clamp((wall_s_() - begin_s) * 1e3, 0.0, kLatencyMax_ms);
+  return static_cast<std::uint32_t>(took_ms + 0.5);
 }
 
 void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
@@ -211,13 +224,20 @@ void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
   request_.step = k;
   request_.lanes.clear();
   request_.lifetime.clear();
-  if (!answer_.request()) return;
-  if (!config_.actuation) {
+  if (answer_.request() && !config_.actuation) {
     out.requests_refused = 1;
-    return;
+  } else if (answer_.request()) {
+    held_requests_.push_back({k + request_delay(config_), *answer_.request()});
   }
-  request_.lanes.push_back(answer_.request()->green.bits());
-  request_.lifetime.push_back(answer_.request()->lifetime);
+  if (held_requests_.empty() || held_requests_.front().due > k) return;
+  // A lifetime counts from the step of the answer.
+  const SignalRequest& due = held_requests_.front().request;
+  const Step lifetime = due.lifetime - request_delay(config_);
+  if (lifetime > 0 || due.lifetime <= 0) {
+    request_.lanes.push_back(due.green.bits());
+    request_.lifetime.push_back(lifetime);
+  }
+  held_requests_.pop_front();
 }
 
 void RsuNode::say_spat(Step k, Frames& frames) {
@@ -247,14 +267,15 @@ void RsuNode::say_map(Step k, Frames& frames) {
 void RsuNode::say_guidance(Step k, RoadsideBatch& out) {
   guidance_.second_mark_ms = second_mark_ms(k);
   for (const RsuAnswer::Item& item : answer_.items()) {
-    VehicleCoordination vehicle{.vehicle = static_cast<std::uint64_t>(item.car),
-                                .path = guided_path(item, cars_.report(item.car)),
-                                .binding = binding_of(item)};
+    VehicleCoordination& vehicle = guidance_.vehicles.emplace_back();
+    vehicle.vehicle = static_cast<std::uint64_t>(item.car);
+    vehicle.path = guided_path(item, cars_.report(item.car));
+    vehicle.binding = binding_of(item);
     if (vehicle.path && !fits(*vehicle.path)) {
+      guidance_.vehicles.pop_back();
       ++out.answers_malformed;
       continue;
     }
-    guidance_.vehicles.push_back(std::move(vehicle));
     if (guidance_.vehicles.size() == kMaxCoordinations) send_guidance(out.frames);
   }
   if (!guidance_.vehicles.empty()) send_guidance(out.frames);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/scenario/radio.hpp"
-#include "common/scenario/scenario.hpp"
+#include "common/scenario/scenario_steps.hpp"
 #include "scenario.pb.h"
 
 namespace lukou {
@@ -145,6 +145,7 @@ Expected<EngineConfig> engine_config(const scenario::Resolved& scenario) {
   config.radio = scenario::radio_parameters(from);
   config.unit_errors = unit_error_parameters(from.vehicles());
   config.sensors = sensor_parameters(from);
+  config.rsu_measured = scenario::protocol(scenario).rsu_measured;
   config.traffic.seed = from.run().seed();
   config.traffic.overflow_wait_s = from.run().overflow_wait_s();
   config.traffic.vehicles = vehicle_parameters(from.vehicles());

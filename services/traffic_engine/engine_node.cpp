@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "common/core/contract.hpp"
 #include "common/intersection/geometry.hpp"
@@ -117,7 +118,7 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
     hear(*batch);
     load_.add_roadside(batch->frames, batch->step);
   }
-  if (config_.radio.modelled) deliver(k - 1);
+  if (config_.radio.modelled || !inbox_.empty()) deliver(k - 1);
   engine_.step(k, k > 0 ? promise_.at(k - 1) : Heads{}, advice_);
   promise_.forget_before(k);
 
@@ -126,6 +127,7 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   if (auto done = report_reception(roadside, traffic); !done) return done;
   for (const RoadsideBatch* batch : roadside) {
     traffic.heard_epoch.push_back(batch != nullptr ? batch->epoch : 0);
+    traffic.computing_ms.push_back(batch != nullptr ? computing_ms(*batch) : 0);
     if (batch == nullptr) continue;
     traffic.answers_malformed += batch->answers_malformed;
     traffic.requests_refused += batch->requests_refused;
@@ -138,6 +140,18 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   between_cars_.hear(air.frames, k, load_);
   next_ = k + 1;
   return Done{};
+}
+
+void EngineNode::replay(const std::vector<ComputingDelay>& computed) {
+  replayed_.emplace();
+  for (const ComputingDelay& delay : computed) replayed_->insert({{delay.step, delay.rsu}, delay.delay_ms});
+}
+
+std::uint32_t EngineNode::computing_ms(const RoadsideBatch& batch) const {
+  const bool measured = batch.rsu < config_.rsu_measured.size() && config_.rsu_measured[batch.rsu];
+  if (!replayed_ || !measured) return batch.computing_ms;
+  const auto recorded = replayed_->find({batch.step, batch.rsu});
+  return recorded == replayed_->end() ? 0 : recorded->second;
 }
 
 void EngineNode::hear(const RoadsideBatch& batch) {
@@ -155,7 +169,8 @@ void EngineNode::hear_spat(const RoadsideBatch& batch, std::size_t frame) {
     const auto lane = static_cast<Lane>(i);
     for (const traffic::Car& car : engine_.lane(lane).cars()) {
       if (!car.unit.listens(batch.rsu, batch.step + 1, lost_after)) continue;
-      const Hop hop = hop_to(lane, car, batch, frame);
+      Hop hop = hop_to(lane, car, batch, frame);
+      hop.computing_ms = 0.0;  // no algorithm has a part in it
       const Reception reception = modem_.receive(hop);
       if (!reception.lost) spats_.add(reception, hop, {car.temporary_id, batch.rsu});
     }
@@ -180,7 +195,7 @@ void EngineNode::hear_coordination(const RoadsideBatch& batch, std::size_t frame
     advice.issued = issued;
     advice.rsu = batch.rsu;
     advice.sequence = sequence;
-    pass_on(advice, batch, frame);
+    pass_on(std::move(advice), batch, frame);
   }
   for (const LaneSpeed& word : message.value().lanes) {
     const traffic::Advice advice{.acceleration_mps2 = std::numeric_limits<double>::quiet_NaN(),
@@ -199,16 +214,28 @@ void EngineNode::say_on_lane(const LaneSpeed& word, traffic::Advice advice, cons
   for (const traffic::Car& car : engine_.lane(word.lane).cars()) {
     if (!car.equipped || car.stage == traffic::Stage::kExit) continue;
     advice.target = car.temporary_id;
-    pass_on(advice, batch, frame);
+    pass_on(traffic::Advice(advice), batch, frame);
   }
 }
 
-void EngineNode::pass_on(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame) {
+void EngineNode::pass_on(traffic::Advice&& advice, const RoadsideBatch& batch, std::size_t frame) {
   if (config_.radio.modelled) {
     send(advice, batch, frame);
+  } else if (computing_ms(batch) > 0) {
+    delay(advice, batch, frame);
   } else {
-    advice_.push_back(advice);
+    advice_.push_back(std::move(advice));
   }
+}
+
+void EngineNode::delay(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame) {
+  const auto target = engine_.equipped_car(advice.target);
+  if (!target) {
+    advice_.push_back(advice);
+    return;
+  }
+  const Hop hop = hop_to(target->lane, *target->car, batch, frame);
+  inbox_.add(modem_.receive(hop), hop, advice);
 }
 
 EngineNode::Fate EngineNode::fate_of(const traffic::Advice& advice, std::uint32_t vehicle, AdviceFate fate) {
@@ -250,7 +277,8 @@ Hop EngineNode::hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& 
           .rsu = batch.rsu,
           .epoch = batch.epoch,
           .place = static_cast<std::uint32_t>(frame),
-          .car_speed_mps = car.motion.speed_mps};
+          .car_speed_mps = car.motion.speed_mps,
+          .computing_ms = static_cast<double>(computing_ms(batch))};
   if (modem_.asks_for_collisions()) {
     hop.collision_probability = load_.collision_from_mast(antenna, load_.width(batch.frames.wire_bytes[frame]));
   }

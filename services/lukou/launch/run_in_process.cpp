@@ -22,8 +22,12 @@ constexpr std::size_t kRecentSignals = 4;
 /// All nodes of a run in one thread, in the order that the edges give: controller, engine, recorder, RSUs.
 class InProcessRun {
  public:
-  InProcessRun(scenario::Resolved scenario, scenario::DirectiveLog log)
-      : scenario_(std::move(scenario)), protocol_(scenario::protocol(scenario_)), log_(std::move(log)) {
+  /// `replays`: the log is that of an earlier run.
+  InProcessRun(scenario::Resolved scenario, scenario::DirectiveLog log, bool replays)
+      : scenario_(std::move(scenario)),
+        protocol_(scenario::protocol(scenario_)),
+        log_(std::move(log)),
+        replays_(replays) {
     if (log_.stop) protocol_.end = std::min(protocol_.end, *log_.stop);
   }
 
@@ -35,6 +39,7 @@ class InProcessRun {
     const auto config = engine_config(scenario_);
     if (!config) return config.error();
     engine_.emplace(config.value());
+    if (replays_) engine_->replay(log_.computed);
     auto recorder = RecorderNode::create(scenario_, folder);
     if (!recorder) return recorder.error();
     recorder_.emplace(std::move(recorder).value());
@@ -105,6 +110,7 @@ class InProcessRun {
     if (!algorithm) return algorithm.error();
     RsuLife& life = rsus_[rsu];
     life.node.emplace(config.value(), std::move(algorithm).value());
+    life.node->measure_with(process::wall_s);
     life.signal = Edge<SignalBatch>(signal_timing(protocol_.signal_promise), epoch == 1);
     life.answer.epoch = epoch;
     return Done{};
@@ -159,6 +165,7 @@ class InProcessRun {
   scenario::Resolved scenario_;
   scenario::Protocol protocol_;
   scenario::DirectiveLog log_;
+  bool replays_;
   std::size_t next_directive_ = 0;
   std::optional<Actuation> actuation_;
   std::optional<SignalControllerNode> controller_;
@@ -196,7 +203,7 @@ RunReport run_in_process(const RunRequest& request, const Listener& listener) {
   const bool stopped_in_log = log.stop.has_value();
   const auto folder = create_result(request);
   if (!folder) return refuse(process::kExitIo, folder.error());
-  InProcessRun run(request.scenario, std::move(log));
+  InProcessRun run(request.scenario, std::move(log), !request.replay.empty());
   if (auto done = run.build(folder.value()); !done) return refuse(process::kExitUsage, done.error());
 
   RunEnd end;

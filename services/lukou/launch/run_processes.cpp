@@ -94,7 +94,9 @@ class Session {
     if (!request_.replay.empty()) clock.insert(clock.end(), {"--replay-directives", request_.replay.string()});
     if (waits_for_somebody()) clock.insert(clock.end(), {"--forming-limit", "1000000"});
     if (auto done = member(std::string(kClockRole), "lukou-clock", clock); !done) return done;
-    if (auto done = member(std::string(kEngineRole), "lukou-traffic-engine", {}); !done) return done;
+    std::vector<std::string> engine;
+    if (!request_.replay.empty()) engine = {"--replay-directives", request_.replay.string()};
+    if (auto done = member(std::string(kEngineRole), "lukou-traffic-engine", engine); !done) return done;
     if (auto done = member(std::string(kControllerRole), "lukou-signal-controller", {}); !done) return done;
     if (auto done = member(std::string(kRecorderRole), "lukou-recorder", {"--out", folder_.string()}); !done)
       return done;

@@ -93,6 +93,9 @@ std::string summary_text(const launch::RunReport& report) {
     }
     text += "\n";
     if (summary.contains("signals")) text += requests_text(summary["signals"]);
+    if (summary.contains("rsu_deadline_misses")) {
+      text += "computing: " + cell(summary["rsu_deadline_misses"]) + " steps took an RSU longer than 0.1 s\n";
+    }
     if (summary.contains("stops_by_cause")) text += stops_text(summary);
     text += "safety: " + cell(summary["collisions"]) + " collisions, " + cell(summary["reversals"]) + " reversals, " +
             cell(summary["red_crossings"]) + " crossings on red (cars that could not stop), least head distance " +

@@ -53,6 +53,7 @@ int joined_run(int argc, char** argv, const MakeScenarioAlgorithm& make) {
     member.faces(Topic::kRequest, *requests_out, true);
   }
   RsuNode node(config.value(), std::move(algorithm).value());
+  node.measure_with(process::wall_s);
   // A returning RSU learns with its first grant which batches it begins with.
   const bool from_the_start = member.epoch() == 1;
   bool begun = from_the_start;

@@ -33,8 +33,8 @@ auto members(ReceptionReport& r) {
 }
 
 auto members(RoadsideBatch& b) {
-  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception, requests] = b;
-  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers, requests), members(frames),
+  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception, requests, computing] = b;
+  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers, requests, computing), members(frames),
                         members(reception));
 }
 
@@ -53,13 +53,13 @@ auto members(TrafficBatch& b) {
          missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped,
          entered_speed, entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
          fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded, answers, guard, overflow,
-         heard, requests, reception, fate_kind, fate_speed] = b;
+         heard, requests, reception, fate_kind, fate_speed, computing] = b;
   return std::tuple_cat(
       std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance,
                bound_by, missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane,
                entered_equipped, entered_speed, entered_desired, crossed, crossed_time, crossed_aspect,
                crossed_committed, left, left_time, fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued,
-               fate_commanded, answers, guard, overflow, heard, requests, fate_kind, fate_speed),
+               fate_commanded, answers, guard, overflow, heard, requests, fate_kind, fate_speed, computing),
       members(reception));
 }
 

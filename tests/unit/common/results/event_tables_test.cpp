@@ -96,6 +96,14 @@ TEST_F(Events, SayWhichSpeedAnAdviceAskedFor) {
             "120,12.0,112,11.2,0,0,9,SC,-0.5,applied,0.0,117,speed,12.5\n");
 }
 
+TEST_F(Events, HaveARowForADeadlineThatAnRsuMissed) {
+  auto tables = EventTables::create(folder(), {.guidance = true});
+  ASSERT_TRUE(tables.ok()) << tables.error().text();
+  tables.value().add(MissedDeadline{.known = 121, .answered = 120, .rsu = 1, .took_ms = 137});
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_EQ(content("guidance.csv"), guidance_columns() + "\n121,12.1,120,12.0,1,,,,,deadline_missed,0.137,,,\n");
+}
+
 TEST_F(Events, AreLeftOutWhenNobodyAskedForThem) {
   auto tables = EventTables::create(folder(), {});
   ASSERT_TRUE(tables.ok());

@@ -85,6 +85,25 @@ TEST(RsuNode, CountsARequestThatAFixedPlanCannotHear) {
   }
 }
 
+TEST(RsuNode, HoldsARequestBackForTheStepsThatItComputes) {
+  // 250 ms: the answer of step 1 is said after step 3 has begun, and its 50 steps of life have become 48.
+  RsuConfig slow = config();
+  slow.actuation = Actuation{};
+  slow.computing.declared_ms = 250;
+  RsuNode node(slow, std::make_unique<Scripted>([](const RsuView& heard, RsuAnswer& answer) {
+                 EXPECT_EQ(heard.request_acts, heard.step + 2 + 1 + 10);
+                 if (heard.step == 1) answer.request_green({static_cast<Lane>(0)}, 50);
+                 if (heard.step == 2) answer.request_green({static_cast<Lane>(1)}, 2);
+               }));
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 6; ++k) {
+    node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
+    EXPECT_EQ(node.request().lanes, k == 3 ? std::vector<std::uint16_t>{1} : std::vector<std::uint16_t>{}) << k;
+    EXPECT_EQ(node.request().lifetime, k == 3 ? std::vector<Step>{48} : std::vector<Step>{}) << k;
+  }
+}
+
 TEST(RsuNode, TellsItsAlgorithmHowFarTheHeadsArePromised) {
   RsuConfig with_actuation = config();
   with_actuation.actuation = Actuation{.min_green = 60};
@@ -243,6 +262,30 @@ TEST(RsuNode, DropsAndCountsWhatItCannotDecode) {
   EXPECT_EQ(out.frames_heard, 2U);
   EXPECT_EQ(out.frames_malformed, 1U);
   EXPECT_EQ(cars, 1U);
+}
+
+std::uint32_t computing_ms(const ComputingTime& computing, double takes_s) {
+  RsuConfig of = config();
+  of.computing = computing;
+  double now_s = 5.0;
+  RsuNode node(of, std::make_unique<Scripted>([&](const RsuView&, RsuAnswer&) { now_s += takes_s; }));
+  node.measure_with([&] { return now_s; });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  return out.computing_ms;
+}
+
+TEST(RsuNode, SaysHowLongItComputedInWholeMilliseconds) {
+  EXPECT_EQ(computing_ms({.measured = true}, 0.1234), 123U);
+  EXPECT_EQ(computing_ms({.measured = true}, 0.1236), 124U);
+  EXPECT_EQ(computing_ms({.measured = true}, 0.0004), 0U);
+  EXPECT_EQ(computing_ms({.measured = true}, 1000.0), 50'000U) << "cut where the radio cuts";
+}
+
+TEST(RsuNode, SaysTheDeclaredTimeWhateverItTook) {
+  EXPECT_EQ(computing_ms({.declared_ms = 20}, 0.3), 20U);
+  EXPECT_EQ(computing_ms({}, 0.3), 0U);
 }
 
 TEST(RsuNodeDeathTest, EndsTheProgramWithoutAPromiseForItsStep) {
