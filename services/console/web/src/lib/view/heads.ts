@@ -20,7 +20,7 @@ export function aspectColour(aspect: number, palette: Palette): string {
 
 /** Where the heads are on the screen. */
 export function headPlaces(camera: Camera, paths: readonly Path[], laneWidthM: number): HeadPlace[] {
-  const radius = Math.min(13, Math.max(3.5, (laneWidthM / 2) * camera.scale * 0.86));
+  const radius = Math.min(14, Math.max(3.5, (laneWidthM / 2) * camera.scale * 0.9));
   return paths.map((path, lane) => {
     const p = path.place(path.stopLineM);
     const d = path.direction(path.stopLineM - 0.1);
@@ -53,7 +53,7 @@ export function drawHeads(
     if (!near) continue;
     context.fillStyle = look.palette.head;
     context.beginPath();
-    context.arc(x, y, radius + 1.5, 0, 2 * Math.PI);
+    context.roundRect(x - radius - 0.5, y - radius - 0.5, 2 * radius + 1, 2 * radius + 1, 2);
     context.fill();
     context.fillStyle = colour;
     lamp(context, aspect, x, y, radius);
@@ -94,7 +94,7 @@ function lamp(context: CanvasRenderingContext2D, aspect: number, x: number, y: n
     context.lineTo(x, y + radius);
     context.lineTo(x - radius, y);
   } else {
-    const half = radius * 0.8;
+    const half = radius - 1;
     context.rect(x - half, y - half, 2 * half, 2 * half);
   }
   context.fill();

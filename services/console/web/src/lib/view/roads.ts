@@ -156,29 +156,31 @@ function turnOf(path: Path): number {
 
 function drawArrow(context: Context, camera: Camera, path: Path, palette: Palette): void {
   const turn = turnOf(path);
-  const base = path.stopLineM - 13;
-  const stroke = (points: [number, number][]) => {
+  const base = path.stopLineM - 14;
+  const shape = (points: [number, number][]) => {
     trace(context, camera, points.map(([along, left]) => beside(path, base + along, left)));
   };
   context.strokeStyle = palette.marking;
   context.fillStyle = palette.marking;
-  context.lineWidth = 0.22 * camera.scale;
+  context.lineJoin = 'miter';
+  context.lineWidth = 0.24 * camera.scale;
   if (turn === 0) {
-    stroke([[0, 0], [3.6, 0]]);
+    shape([[0, 0], [4.2, 0]]);
     context.stroke();
-    stroke([[3.4, -0.5], [5, 0], [3.4, 0.5]]);
+    shape([[4, -0.55], [6, 0], [4, 0.55]]);
   } else {
-    stroke([[0, 0], [2.9, 0], [3.4, turn * 0.7]]);
+    const side = turn > 0 ? 1 : -1;
+    shape([[0, -0.45 * side], [3.6, -0.45 * side], [4.6, 0.25 * side]]);
     context.stroke();
-    stroke([[2.6, turn * 0.5], [4.3, turn * 0.55], [3.5, turn * 1.35]]);
+    shape([[5.25, -0.35 * side], [5.3, 1.15 * side], [3.75, 0.75 * side]]);
   }
   context.fill();
 }
 
 function drawNames(context: Context, camera: Camera, paths: readonly Path[], look: RoadLook): void {
-  if (camera.scale < 2) return;
+  if (camera.scale < 3.5) return;
   context.fillStyle = look.palette.label;
-  context.font = `600 ${Math.min(14, Math.max(9, 2.4 * camera.scale))}px system-ui, sans-serif`;
+  context.font = `600 ${Math.min(14, 2.1 * camera.scale)}px system-ui, sans-serif`;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
   for (const path of paths) {
