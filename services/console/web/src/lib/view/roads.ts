@@ -111,9 +111,11 @@ function lateralM(path: Path): number {
 function drawSeparators(context: Context, camera: Camera, paths: readonly Path[], look: RoadLook): void {
   const half = look.laneWidthM / 2;
   const width = Math.max(0.6, 0.15 * camera.scale);
+  const { edge } = junction(paths, look.laneWidthM);
   for (const path of paths) {
     const lateral = lateralM(path);
     const innermost = lateral < look.laneWidthM;
+    const exitM = Math.min(path.stopLineM, path.lengthM - path.stopLineM - 2 * edge);
     const line = (left: number, fromM: number, toM: number) => {
       trace(context, camera, [beside(path, fromM, left), beside(path, toM, left)]);
       context.stroke();
@@ -127,12 +129,13 @@ function drawSeparators(context: Context, camera: Camera, paths: readonly Path[]
       line(half - 0.2, 0, path.stopLineM);
       continue;
     }
+    if (camera.scale < 1) continue;
     context.strokeStyle = look.palette.marking;
     const dash = [3 * camera.scale, 4.5 * camera.scale];
     // Towards the junction, and on the other side of the road, where cars leave it.
-    context.setLineDash(camera.scale < 0.8 ? [] : dash);
+    context.setLineDash(dash);
     line(half, 0, solidFromM);
-    line(2 * lateral - half, 0, path.stopLineM);
+    line(2 * lateral - half, path.stopLineM - exitM, path.stopLineM);
     context.setLineDash([]);
     line(half, solidFromM, path.stopLineM);
   }
