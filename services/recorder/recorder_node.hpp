@@ -16,6 +16,7 @@
 #include "common/results/tables.hpp"
 #include "common/scenario/directive_log.hpp"
 #include "services/recorder/measure_config.hpp"
+#include "services/recorder/view_columns.hpp"
 
 namespace lukou {
 
@@ -61,8 +62,10 @@ class RecorderNode {
   RunMeasures measures_;
   AdviceLedger ledger_;
   ReceptionMeasures reception_;
-  Step radio_rows_to_ = 0;  ///< the step of the newest rows of radio.csv
+  std::vector<ReceptionFigures> last_second_;  ///< the newest rows of radio.csv
+  Step radio_rows_to_ = 0;                     ///< their step
   SignalPromise promise_;
+  HeadForecast heads_;
   scenario::DirectiveLog log_;
   std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last
   TrafficBatch picture_;                    ///< the newest step

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/bus/batches.hpp"
-#include "services/signal_controller/model/plan_schedule.hpp"
+#include "common/intersection/plan_schedule.hpp"
 
 namespace lukou {
 
