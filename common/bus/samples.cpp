@@ -100,8 +100,26 @@ void traffic_columns(Plain& plain, Sample& sample, Move move) {
 
 template <class Plain, class Sample, class Move>
 void view_columns(Plain& plain, Sample& sample, Move move) {
-  move(plain.vehicle, sample.vehicle), move(plain.lane, sample.lane), move(plain.equipped, sample.equipped);
-  move(plain.position_m, sample.position_m), move(plain.speed_mps, sample.speed_mps), move(plain.heads, sample.heads);
+  auto& figures = plain.figures;
+  auto& sampled = sample.figures;
+  move(figures.arrived, sampled.arrived), move(figures.waiting, sampled.waiting);
+  move(figures.in_system, sampled.in_system), move(figures.left, sampled.left);
+  move(figures.standing, sampled.standing), move(figures.stops, sampled.stops);
+  move(figures.throughput_veh_per_h, sampled.throughput_veh_per_h);
+  move(figures.stops_per_vehicle, sampled.stops_per_vehicle), move(figures.stop_time_s, sampled.stop_time_s);
+  move(figures.mean_stop_time_s, sampled.mean_stop_time_s), move(figures.mean_delay_s, sampled.mean_delay_s);
+  move(plain.queue, sample.queue), move(plain.arrived, sample.arrived), move(plain.waiting, sample.waiting);
+  move(plain.heard_epoch, sample.heard_epoch), move(plain.vehicle, sample.vehicle), move(plain.lane, sample.lane);
+  move(plain.state, sample.state), move(plain.equipped, sample.equipped), move(plain.position_m, sample.position_m);
+  move(plain.speed_mps, sample.speed_mps), move(plain.acceleration_mps2, sample.acceleration_mps2);
+  move(plain.commanded_mps2, sample.commanded_mps2), move(plain.guidance, sample.guidance);
+  move(plain.bound_by, sample.bound_by), move(plain.missed, sample.missed);
+  move(plain.standing_steps, sample.standing_steps), move(plain.advice_step, sample.advice_step);
+  move(plain.heads, sample.heads), move(plain.change_step, sample.change_step);
+  move(plain.next_aspect, sample.next_aspect), move(plain.radio_direction, sample.radio_direction);
+  move(plain.radio_kind, sample.radio_kind), move(plain.radio_sent, sample.radio_sent);
+  move(plain.radio_heard, sample.radio_heard), move(plain.radio_lost, sample.radio_lost);
+  move(plain.radio_latency_ms, sample.radio_latency_ms);
 }
 
 constexpr auto kLend = [](const auto& column, auto& sequence) { lend_column(column, sequence); };
@@ -201,6 +219,7 @@ void lend(const Control& message, lukou_bus_Control& sample, Scratch& scratch) {
   sample.through = message.through;
   sample.last = message.last;
   sample.ok = message.ok;
+  sample.number = message.number;
   sample.roster_version = message.roster_version;
   lend_column(message.roster_incarnation, sample.roster_incarnation);
   lend_strings(message.roster_role, sample.roster_role, scratch.strings_a);
@@ -223,6 +242,7 @@ void copy(const lukou_bus_Control& sample, Control& message) {
   message.through = sample.through;
   message.last = sample.last;
   message.ok = sample.ok;
+  message.number = sample.number;
   message.roster_version = sample.roster_version;
   copy_column(sample.roster_incarnation, message.roster_incarnation);
   copy_strings(sample.roster_role, message.roster_role);
@@ -281,23 +301,11 @@ void copy(const lukou_bus_RunState& sample, RunState& message) {
 
 void lend(const View& message, lukou_bus_View& sample, Scratch&) {
   sample.step = message.step;
-  sample.arrived = message.arrived;
-  sample.waiting = message.waiting;
-  sample.in_system = message.in_system;
-  sample.left = message.left;
-  sample.standing = message.standing;
-  sample.mean_stop_time_s = message.mean_stop_time_s;
   view_columns(message, sample, kLend);
 }
 
 void copy(const lukou_bus_View& sample, View& message) {
   message.step = sample.step;
-  message.arrived = sample.arrived;
-  message.waiting = sample.waiting;
-  message.in_system = sample.in_system;
-  message.left = sample.left;
-  message.standing = sample.standing;
-  message.mean_stop_time_s = sample.mean_stop_time_s;
   view_columns(message, sample, kCopy);
 }
 

@@ -124,13 +124,17 @@ void ClockCore::join(double now_s, const Up& message) {
   Control& welcome = send(Control::Kind::kWelcome, message.incarnation);
   welcome.epoch = member.epoch;
   welcome.text = settings_.scenario_text;
-  for (std::size_t i = 0; i < directives_sent_; ++i) {
-    welcome.directive_step.push_back(directives_[i].step);
-    welcome.directive_set.push_back(directives_[i].set);
-  }
+  add_directives_sent(welcome);
   members_.emplace(message.incarnation, std::move(member));
   progress_s_ = now_s;
   if (missing_roles().empty() || phase_ != RunPhase::kForming) publish_roster();
+}
+
+void ClockCore::add_directives_sent(Control& message) const {
+  for (std::size_t i = 0; i < directives_sent_; ++i) {
+    message.directive_step.push_back(directives_[i].step);
+    message.directive_set.push_back(directives_[i].set);
+  }
 }
 
 void ClockCore::publish_roster() {

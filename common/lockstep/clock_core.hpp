@@ -90,6 +90,9 @@ class ClockCore {
 
   void join(double now_s, const Up& message);
   void request(double now_s, const Up& message);
+  /// Sends an answer to an operator's request.
+  Control& reply(const Up& request, bool ok, const std::string& text);
+  void add_directives_sent(Control& message) const;
   Expected<std::string> execute(double now_s, const std::string& verb, const std::string& argument);
   Expected<std::string> change(const std::string& set);
   void lost(double now_s, Incarnation incarnation, RunOutcome::Kind kind, const std::string& how);

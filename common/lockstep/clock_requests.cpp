@@ -32,23 +32,32 @@ Expected<double> pace_of(const std::string& text) {
                "`" + text + "` is not a pace; use max, very-slow, slow, medium, fast or a factor in (0, 1000000]"};
 }
 
+Control& ClockCore::reply(const Up& request, bool ok, const std::string& text) {
+  Control& reply = send(Control::Kind::kReply, request.incarnation);
+  reply.number = request.number;
+  reply.ok = ok;
+  reply.text = text;
+  return reply;
+}
+
 void ClockCore::request(double now_s, const Up& message) {
+  // What an observer that comes late has missed; what is said after this answer it hears itself.
+  if (message.text == "scenario") {
+    add_directives_sent(reply(message, true, settings_.scenario_text));
+    return;
+  }
   // An operator whose reader was not matched yet missed the answer and asks again, under the same number.
   const auto answered = answers_.find(message.incarnation);
   if (answered != answers_.end() && message.number != 0 && answered->second.number == message.number) {
-    Control& again = send(Control::Kind::kReply, message.incarnation);
-    again.ok = answered->second.ok;
-    again.text = answered->second.text;
+    reply(message, answered->second.ok, answered->second.text);
     return;
   }
   const auto space = message.text.find(' ');
   const std::string verb = message.text.substr(0, space);
   const std::string argument = space == std::string::npos ? "" : message.text.substr(space + 1);
   const auto answer = execute(now_s, verb, argument);
-  Control& reply = send(Control::Kind::kReply, message.incarnation);
-  reply.ok = answer.ok();
-  reply.text = answer ? answer.value() : answer.error().text();
-  answers_[message.incarnation] = {message.number, reply.ok, reply.text};
+  const Control& said = reply(message, answer.ok(), answer ? answer.value() : answer.error().text());
+  answers_[message.incarnation] = {message.number, said.ok, said.text};
   grant(now_s);
 }
 

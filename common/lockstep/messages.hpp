@@ -31,21 +31,24 @@ struct Control {
   Kind kind = Kind::kGrant;
   Incarnation clock = 0;  ///< the sender
   std::uint64_t sequence = 0;
-  Incarnation to = 0;       ///< 0 = everybody
-  std::uint32_t epoch = 0;  ///< Welcome, Fence
-  std::uint32_t rsu = 0;    ///< Fence
-  Step through = -1;        ///< Grant
-  bool last = false;        ///< Grant
-  bool ok = true;           ///< Reply
+  Incarnation to = 0;        ///< 0 = everybody
+  std::uint32_t epoch = 0;   ///< Welcome, Fence
+  std::uint32_t rsu = 0;     ///< Fence
+  Step through = -1;         ///< Grant
+  bool last = false;         ///< Grant
+  bool ok = true;            ///< Reply
+  std::uint64_t number = 0;  ///< Reply: of the request that it answers
   std::uint32_t roster_version = 0;
   std::vector<Incarnation> roster_incarnation;  ///< Roster; parallel to roster_role
   std::vector<std::string> roster_role;
-  std::vector<Step> directive_step;  ///< Grant: new ones; Welcome: all so far; parallel to directive_set
+  /// Grant: new ones; Welcome, Reply to `scenario`: all that grants have said so far; parallel to directive_set.
+  std::vector<Step> directive_step;
   std::vector<std::string> directive_set;
   std::vector<std::uint32_t> attach_rsu;  ///< Grant: RSUs that take part again; three parallel arrays
   std::vector<std::uint32_t> attach_epoch;
   std::vector<Step> attach_from;
-  std::string text;  ///< Refuse, Abort, Reply; Welcome: the resolved scenario; last Grant: "", "stopped", "interrupted"
+  std::string text;     ///< Refuse, Abort, Reply; Welcome, Reply to `scenario`: the resolved scenario; last Grant: "",
+                        ///< "stopped", "interrupted"
   std::string culprit;  ///< Abort: role
 };
 
@@ -87,22 +90,59 @@ struct RunState {
   std::string culprit;  ///< kAborted: role
 };
 
+/// Running figures of groups of cars; each column has three entries: all cars, the equipped ones, the others. All count
+/// from step 0 on, warm-up included; docs/topics.md defines each.
+struct FigureColumns {
+  std::vector<std::uint32_t> arrived;
+  std::vector<std::uint32_t> waiting;  ///< arrived, not yet on the road
+  std::vector<std::uint32_t> in_system;
+  std::vector<std::uint32_t> left;
+  std::vector<std::uint32_t> standing;
+  std::vector<std::uint32_t> stops;
+  std::vector<double> throughput_veh_per_h;  ///< of the last minute
+  std::vector<double> stops_per_vehicle;     ///< not a number: no car yet, as the next but one and the last
+  std::vector<double> stop_time_s;
+  std::vector<double> mean_stop_time_s;
+  std::vector<double> mean_delay_s;
+};
+
 /// From the recorder to observers, at most 30 times a second of wall time.
 struct View {
   Step step = 0;
-  std::uint32_t arrived = 0;
-  std::uint32_t waiting = 0;
-  std::uint32_t in_system = 0;
-  std::uint32_t left = 0;
-  std::uint32_t standing = 0;
-  double mean_stop_time_s = 0.0;  ///< per car on the road so far
-  // The picture.
+  FigureColumns figures;
+  std::vector<std::uint32_t> queue;        ///< per lane (12): cars that stand
+  std::vector<std::uint32_t> arrived;      ///< per approach (4): since step 0
+  std::vector<std::uint32_t> waiting;      ///< per approach (4): arrived, not yet on the road
+  std::vector<std::uint32_t> heard_epoch;  ///< per RSU: the epoch that the engine heard in this step, 0 = silent
+  // Every car on the road, lane after lane, front to back: columns of TrafficBatch and what is measured of each.
   std::vector<std::uint32_t> vehicle;
   std::vector<std::uint8_t> lane;
+  std::vector<std::uint8_t> state;
   std::vector<std::uint8_t> equipped;
   std::vector<double> position_m;
   std::vector<double> speed_mps;
-  std::vector<std::uint8_t> heads;  ///< Aspect of the twelve lanes
+  std::vector<double> acceleration_mps2;
+  std::vector<double> commanded_mps2;
+  std::vector<std::uint8_t> guidance;
+  std::vector<std::uint8_t> bound_by;
+  std::vector<std::uint8_t> missed;
+  std::vector<std::uint32_t> standing_steps;  ///< so far, before the stop line
+  std::vector<Step> advice_step;              ///< when the newest advice that reached it was issued; -1 = none has
+  // The heads of the twelve lanes.
+  std::vector<std::uint8_t> heads;        ///< Aspect
+  std::vector<Step> change_step;          ///< next change; -1 = not known
+  std::vector<std::uint8_t> next_aspect;  ///< Aspect after it; 0 = not known
+  // The radio in the last full second, a row per direction and kind of frame; none under the ideal radio.
+  std::vector<std::uint8_t> radio_direction;  ///< Direction
+  std::vector<std::uint8_t> radio_kind;       ///< FrameKind
+  std::vector<std::uint32_t> radio_sent;
+  std::vector<std::uint32_t> radio_heard;
+  std::vector<std::uint32_t>
+      radio_lost;  ///< seven a row: random, burst, range, path loss, collision, half duplex, outage
+  std::vector<double> radio_latency_ms;  ///< mean of what was heard; not a number: nothing was
+
+  /// Whether each group's columns have one length, and those of lanes, approaches and figures theirs.
+  [[nodiscard]] bool well_formed() const;
 };
 
 }  // namespace lukou

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/core/contract.hpp"
 #include "common/measures/free_motion.hpp"
@@ -15,6 +16,24 @@ constexpr double kSecondsPerHour = 3600.0;
 std::optional<double> ratio(double sum, std::uint64_t count) {
   if (count == 0) return std::nullopt;
   return sum / static_cast<double>(count);
+}
+
+/// Whether an advice with this fate came to the car's unit.
+bool reached(AdviceFate fate) {
+  switch (fate) {
+    case AdviceFate::kUnknownVehicle:
+    case AdviceFate::kMalformed:
+    case AdviceFate::kLostRandom:
+    case AdviceFate::kLostBurst:
+    case AdviceFate::kLostRange:
+    case AdviceFate::kLostPathLoss:
+    case AdviceFate::kLostCollision:
+    case AdviceFate::kLostHalfDuplex:
+    case AdviceFate::kLostOutage:
+      return false;
+    default:
+      return true;
+  }
 }
 
 std::uint64_t sum(const std::vector<std::uint32_t>& column) {
@@ -35,9 +54,19 @@ RunMeasures::Record& RunMeasures::record(std::uint32_t vehicle) {
   return records.cars[n - records.first];
 }
 
+RunMeasures::Record* RunMeasures::record_if_known(std::uint32_t vehicle) {
+  Records& records = records_[vehicle % kApproaches];
+  const std::uint32_t n = vehicle / kApproaches;
+  const bool known = n >= records.first && n - records.first < records.cars.size();
+  return known ? &records.cars[n - records.first] : nullptr;
+}
+
 void RunMeasures::add(const TrafficBatch& batch) {
   LUKOU_EXPECT(batch.step == step_ + 1);
   step_ = batch.step;
+  const std::size_t place = static_cast<std::size_t>(step_) % equipped_crossings_.size();
+  equipped_.crossed_last_minute -= std::exchange(equipped_crossings_[place], std::uint16_t{0});
+  unequipped_.crossed_last_minute -= std::exchange(unequipped_crossings_[place], std::uint16_t{0});
   finished_.clear();
   finished_stops_.clear();
   if (step_ > warmup_step_) ++measured_steps_;
@@ -79,6 +108,7 @@ void RunMeasures::add_entries(const TrafficBatch& batch) {
 
 void RunMeasures::add_motion(const TrafficBatch& batch) {
   for (LaneTotals& lane : lanes_) lane.standing_now = 0;
+  equipped_.standing = unequipped_.standing = 0;
   const bool measured = step_ > warmup_step_;
   for (std::size_t i = 0; i < batch.vehicle.size(); ++i) {
     Record& seen = record(batch.vehicle[i]);
@@ -108,7 +138,10 @@ void RunMeasures::add_motion(const TrafficBatch& batch) {
       ++seen.stop->standing_steps;
       ++lane.standing_steps;
       ++lane.standing_now;
-      if (measured) ++sums(seen).queued_steps;
+      Sums& group = sums(seen);
+      ++group.standing;
+      ++group.standing_steps_ever;
+      if (measured) ++group.queued_steps;
     } else if (speed_mps > parameters_.stop_rearm_mps) {
       seen.armed = true;
       if (seen.stop) end_stop(seen);
@@ -137,6 +170,7 @@ void RunMeasures::begin_stop(const TrafficBatch& batch, std::size_t car, Record&
                            .missed = missed ? name(static_cast<AdviceFate>(facts.missed)) : std::string_view()};
   seen.armed = false;
   ++seen.car.stops;
+  ++sums(seen).stops_ever;
   ++lanes_[batch.lane[car]].stops;
   ++totals_.stops_total;
   ++totals_.stops_by_cause[static_cast<std::size_t>(cause)];
@@ -170,6 +204,9 @@ void RunMeasures::add_crossings(const TrafficBatch& batch) {
     ++lanes_[index(car.lane)].crossed;
     if (batch.crossed_aspect[i] == static_cast<std::uint8_t>(Aspect::kRed)) ++totals_.red_crossings;
     Sums& group = sums(crossing);
+    ++(car.equipped ? equipped_crossings_
+                    : unequipped_crossings_)[static_cast<std::size_t>(step_) % equipped_crossings_.size()];
+    ++group.crossed_last_minute;
     if (batch.crossed_time_s[i] >= parameters_.warmup_s) ++group.crossed_after_warmup;
     if (!crossing.counts) continue;
     ++group.crossed;
@@ -189,6 +226,7 @@ void RunMeasures::add_departures(const TrafficBatch& batch) {
     finished_.push_back(car);
     Sums& group = sums(leaving);
     ++group.left_ever;
+    group.delay_ever_s += car.delay_s;
     if (!leaving.counts) continue;
     ++group.left;
     group.delay_s += car.delay_s;
@@ -214,6 +252,9 @@ void RunMeasures::add_fates(const TrafficBatch& batch) {
       if (batch.fate_issued[i] >= 0) ++totals_.advice_by_kind[batch.fate_kind[i]];
     }
     ++totals_.advice_by_fate[batch.fate[i]];
+    if (!reached(static_cast<AdviceFate>(batch.fate[i]))) continue;
+    Record* advised = record_if_known(batch.fate_vehicle[i]);
+    if (advised != nullptr) advised->newest_advice = std::max(advised->newest_advice, batch.fate_issued[i]);
   }
 }
 
@@ -223,6 +264,11 @@ RunMeasures::Sums& RunMeasures::Sums::operator+=(const Sums& other) {
   entered += other.entered;
   left_ever += other.left_ever;
   crossed_after_warmup += other.crossed_after_warmup;
+  stops_ever += other.stops_ever;
+  standing_steps_ever += other.standing_steps_ever;
+  delay_ever_s += other.delay_ever_s;
+  standing += other.standing;
+  crossed_last_minute += other.crossed_last_minute;
   crossed += other.crossed;
   left += other.left;
   delta_s += other.delta_s;
@@ -265,6 +311,40 @@ RunFigures RunMeasures::figures() const {
   figures.equipped = figures_of(equipped_);
   figures.unequipped = figures_of(unequipped_);
   return figures;
+}
+
+GroupNow RunMeasures::now_of(const Sums& sums) const {
+  GroupNow group;
+  group.arrived = sums.arrived;
+  group.waiting = sums.waiting;
+  group.in_system = sums.entered - sums.left_ever;
+  group.left = sums.left_ever;
+  group.standing = sums.standing;
+  group.stops = sums.stops_ever;
+  group.standing_steps = sums.standing_steps_ever;
+  const Step counted = std::min<Step>(step_, static_cast<Step>(equipped_crossings_.size()));
+  if (counted > 0) {
+    group.throughput_veh_per_h = static_cast<double>(sums.crossed_last_minute) * kSecondsPerHour / time_s(counted);
+  }
+  group.stops_per_vehicle = ratio(static_cast<double>(sums.stops_ever), sums.entered);
+  group.mean_stop_time_s =
+      ratio(static_cast<double>(sums.standing_steps_ever) / static_cast<double>(kStepsPerSecond), sums.entered);
+  group.mean_delay_s = ratio(sums.delay_ever_s, sums.left_ever);
+  return group;
+}
+
+RunNow RunMeasures::now() const {
+  Sums all = equipped_;
+  all += unequipped_;
+  return {.all = now_of(all), .equipped = now_of(equipped_), .unequipped = now_of(unequipped_)};
+}
+
+CarNow RunMeasures::now(std::uint32_t vehicle) const {
+  const Records& records = records_[vehicle % kApproaches];
+  const std::uint32_t n = vehicle / kApproaches;
+  LUKOU_EXPECT(n >= records.first && n - records.first < records.cars.size());
+  const Record& seen = records.cars[n - records.first];
+  return {.standing_steps = seen.car.standing_steps, .newest_advice = seen.newest_advice};
 }
 
 }  // namespace lukou

@@ -55,6 +55,34 @@ struct GroupFigures {
   std::optional<double> mean_abs_acceleration_mps2;  ///< over all cars on the road and the steps after the warm-up
 };
 
+/// A group of cars as it stands now. Everything counts from step 0 on, warm-up included; stops and standing before the
+/// stop line. Means over cars that came onto the road, of the delay over those that have left the exit; empty while
+/// there are none.
+struct GroupNow {
+  std::uint64_t arrived = 0;
+  std::uint64_t waiting = 0;
+  std::uint64_t in_system = 0;
+  std::uint64_t left = 0;
+  std::uint64_t standing = 0;
+  std::uint64_t stops = 0;
+  std::uint64_t standing_steps = 0;
+  double throughput_veh_per_h = 0.0;  ///< crossings of the last minute, or of the time so far while that is shorter
+  std::optional<double> stops_per_vehicle;
+  std::optional<double> mean_stop_time_s;
+  std::optional<double> mean_delay_s;
+};
+struct RunNow {
+  GroupNow all;
+  GroupNow equipped;
+  GroupNow unequipped;
+};
+
+/// What is known of a car on the road.
+struct CarNow {
+  std::uint32_t standing_steps = 0;  ///< before the stop line
+  Step newest_advice = -1;           ///< when the newest advice that reached it was issued; -1: none has
+};
+
 /// Every figure of a run up to the newest step.
 struct RunFigures {
   GroupFigures all;
@@ -94,6 +122,9 @@ class RunMeasures {
   [[nodiscard]] std::uint64_t left() const { return equipped_.left_ever + unequipped_.left_ever; }
   [[nodiscard]] std::uint64_t collisions() const { return totals_.collisions; }
   [[nodiscard]] RunFigures figures() const;
+  [[nodiscard]] RunNow now() const;
+  /// Requires a car on the road.
+  [[nodiscard]] CarNow now(std::uint32_t vehicle) const;
 
  private:
   /// What is known of a car that is on the road.
@@ -102,6 +133,7 @@ class RunMeasures {
     std::optional<FinishedStop> stop;  ///< that lasts
     double free_time_s = 0.0;
     double position_m = 0.0;
+    Step newest_advice = -1;
     bool armed = true;  ///< would count a stop
     bool overlapping = false;
     bool counts = false;  ///< entered after the warm-up
@@ -119,6 +151,12 @@ class RunMeasures {
     std::uint64_t entered = 0;
     std::uint64_t left_ever = 0;
     std::uint64_t crossed_after_warmup = 0;
+    std::uint64_t stops_ever = 0;
+    std::uint64_t standing_steps_ever = 0;
+    double delay_ever_s = 0.0;
+    // Now.
+    std::uint64_t standing = 0;
+    std::uint64_t crossed_last_minute = 0;
     // Of the cars that count.
     std::uint64_t crossed = 0;
     std::uint64_t left = 0;
@@ -133,7 +171,12 @@ class RunMeasures {
     Sums& operator+=(const Sums& other);
   };
 
+  /// Crossings of a group in each step of the last minute.
+  using LastMinute = std::array<std::uint16_t, 60 * kStepsPerSecond>;
+
   Record& record(std::uint32_t vehicle);
+  /// Null: not on the road, or not any more.
+  Record* record_if_known(std::uint32_t vehicle);
   Sums& sums(const Record& record) { return record.car.equipped ? equipped_ : unequipped_; }
   void add_entries(const TrafficBatch& batch);
   void add_motion(const TrafficBatch& batch);
@@ -143,6 +186,7 @@ class RunMeasures {
   void add_departures(const TrafficBatch& batch);
   void add_fates(const TrafficBatch& batch);
   [[nodiscard]] GroupFigures figures_of(const Sums& sums) const;
+  [[nodiscard]] GroupNow now_of(const Sums& sums) const;
 
   MeasureParameters parameters_;
   Step warmup_step_;
@@ -153,6 +197,8 @@ class RunMeasures {
   std::vector<FinishedStop> finished_stops_;
   Sums equipped_;
   Sums unequipped_;
+  LastMinute equipped_crossings_{};
+  LastMinute unequipped_crossings_{};
   RunFigures totals_;  ///< the counts of it
   std::uint64_t measured_steps_ = 0;
 };

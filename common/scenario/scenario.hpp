@@ -56,6 +56,27 @@ Expected<Done> change(Resolved& scenario, const std::string& assignment);
 /// Paths of the fields that may change while a run goes on, in the order of the schema.
 std::vector<std::string> live_fields();
 
+/// A field that may change while a run goes on, as it is now.
+struct LiveValue {
+  std::string path;  ///< as change() takes it: "rsus[0].sensors[0].miss_rate"
+  std::string unit;
+  std::string value;  ///< as change() takes it; empty: the field is absent
+  std::optional<double> min;
+  std::optional<double> max;
+  std::string source;
+  std::vector<std::string> words;  ///< of an enum, and of true or false
+};
+/// Every number, word and text that change() may set, in the order of the schema, and signals.plan as a whole; of lists
+/// what stands in them.
+std::vector<LiveValue> live_values(const Resolved& scenario);
+
+/// The signal plans that `signals.preset` names.
+struct NamedPlan {
+  std::string name;  ///< "PAPER"
+  lukou::SignalPlan plan;
+};
+std::vector<NamedPlan> signal_presets();
+
 /// The canonical text: loading it gives the same scenario and the same text.
 std::string text(const Resolved& scenario);
 /// SHA-256 of text().

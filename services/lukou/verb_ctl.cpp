@@ -1,9 +1,10 @@
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "common/process/environment.hpp"
-#include "services/lukou/control/run_client.hpp"
-#include "services/lukou/launch/domain_claim.hpp"
+#include "common/process/run_client.hpp"
+#include "common/process/run_list.hpp"
 #include "services/lukou/scenario_arguments.hpp"
 #include "services/lukou/verbs.hpp"
 
@@ -18,40 +19,27 @@ struct CtlArguments {
 };
 
 void list() {
-  const auto runs = launch::list_runs();
+  const auto runs = process::list_runs();
   if (runs.empty()) std::fprintf(stderr, "no run on this host\n");
-  for (const launch::ListedRun& run : runs) std::printf("%s domain %d\n", run.run.c_str(), run.domain);
+  for (const process::ListedRun& run : runs) std::printf("%s domain %d\n", run.run.c_str(), run.domain);
 }
 
-/// The run of that name, or the only one whose name begins so.
-Expected<launch::ListedRun> find(const std::string& name) {
-  std::vector<launch::ListedRun> matching;
-  std::string all;
-  for (const launch::ListedRun& run : launch::list_runs()) {
-    all += " " + run.run;
-    if (run.run == name) return run;
-    if (run.run.starts_with(name)) matching.push_back(run);
-  }
-  if (matching.size() == 1) return matching.front();
-  if (all.empty()) return Error{name, "no run on this host"};
-  return Error{name, (matching.empty() ? "no run of this name; there are:" : "several runs begin so:") + all};
-}
-
-void print_state(const control::RunClient& client) {
+void print_state(const process::RunClient& client) {
   const RunState& state = *client.state();
   std::printf("%s: %s, %.1f of %.1f s recorded", state.run.c_str(), std::string(name(state.phase)).c_str(),
               time_s(std::max<Step>(state.recorded, 0)), time_s(state.end));
   if (client.view()) {
-    const View& view = *client.view();
-    std::printf(", %u cars on the road, %u waiting, %u standing, mean stop time %.2f s", view.in_system, view.waiting,
-                view.standing, view.mean_stop_time_s);
+    const FigureColumns& all = client.view()->figures;
+    const double mean_s = all.mean_stop_time_s.front();
+    std::printf(", %u cars on the road, %u waiting, %u standing, mean stop time %.2f s", all.in_system.front(),
+                all.waiting.front(), all.standing.front(), std::isnan(mean_s) ? 0.0 : mean_s);
   }
   std::printf("%s%s\n", state.text.empty() ? "" : ", ", state.text.c_str());
   std::fflush(stdout);
 }
 
 /// Prints a line a second until the run ends (`once`: one line).
-int watch(control::RunClient& client, bool once) {
+int watch(process::RunClient& client, bool once) {
   const double begin_s = process::wall_s();
   double printed_s = begin_s - 1.0;
   while (process::stop_signal() == 0) {
@@ -76,10 +64,10 @@ int ctl(const CtlArguments& arguments) {
     list();
     return process::kExitDone;
   }
-  const auto run = find(arguments.run);
+  const auto run = process::find_run(arguments.run);
   if (!run) return report_errors(run.error());
   process::catch_stop_signals();
-  auto client = control::RunClient::attach({run.value().domain, run.value().run}, true);
+  auto client = process::RunClient::attach({run.value().domain, run.value().run}, true);
   if (!client) return report_errors(client.error());
   std::string request;
   for (const std::string& word : arguments.request) request += (request.empty() ? "" : " ") + word;

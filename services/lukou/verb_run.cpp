@@ -7,6 +7,7 @@
 #include "common/process/log.hpp"
 #include "common/scenario/directive_log.hpp"
 #include "common/scenario/scenario_steps.hpp"
+#include "services/lukou/launch/console_process.hpp"
 #include "services/lukou/launch/run_request.hpp"
 #include "services/lukou/report/progress.hpp"
 #include "services/lukou/report/summary_text.hpp"
@@ -26,6 +27,7 @@ struct RunArguments {
   std::string replay;
   std::string stall_limit;
   std::string run_id;
+  int console = 0;  ///< port; 0 = no console
   bool wait = false;
   bool no_watchdog = false;
   bool json = false;
@@ -52,40 +54,28 @@ Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved sc
   return Done{};
 }
 
-int run(const RunArguments& arguments) {
-  const auto rsus = rsu_options("--rsu", arguments.rsus);
-  if (!rsus) return report_errors(rsus.error());
-  ScenarioArguments asked = arguments.scenario;
-  for (const auto& [rsu, command] : rsus.value().of) asked.rsus_of_a_user.push_back(rsu);
-  auto scenario = load(asked);
-  if (!scenario) return report_errors(scenario.error());
-  if (const auto pace = pace_of(arguments.pace); !pace) return report_errors(pace.error());
-  if (!arguments.replay.empty()) {
-    if (auto fits = check_replay(arguments, scenario.value()); !fits) return report_errors(fits.error());
-  }
-  if (!arguments.quiet)
-    for (const std::string& warning : scenario::warnings(scenario.value())) process::log_warning(warning);
-  launch::RunRequest request{.scenario = std::move(scenario).value(),
-                             .name = std::filesystem::path(arguments.scenario.scenario).stem().string(),
-                             .run_id = arguments.run_id,
-                             .in_process = arguments.mode == "in-process",
-                             .pace = arguments.pace,
-                             .out = arguments.out,
-                             .rsu = rsus.value().all,
-                             .rsu_of = rsus.value().of,
-                             .start_paused = arguments.wait,
-                             .watchdog = !arguments.no_watchdog,
-                             .stall_limit_s = arguments.stall_limit,
-                             .replay = arguments.replay.empty() ? "" : std::filesystem::absolute(arguments.replay),
-                             .observe = !arguments.quiet};
-  if (request.in_process && (!arguments.rsus.empty() || request.start_paused)) {
-    return report_errors({"--mode in-process", "takes neither --rsu nor --wait: there are no processes to talk to"});
-  }
-  process::catch_stop_signals();
+/// One run as the arguments ask for it. `console`: shows it; may be null.
+launch::RunReport run_once(const RunArguments& arguments, scenario::Resolved scenario, const RsuOptions& rsus,
+                           launch::ConsoleProcess* console) {
+  const launch::RunRequest request{
+      .scenario = std::move(scenario),
+      .name = std::filesystem::path(arguments.scenario.scenario).stem().string(),
+      .run_id = arguments.run_id,
+      .in_process = arguments.mode == "in-process",
+      .pace = arguments.pace,
+      .out = arguments.out,
+      .rsu = rsus.all,
+      .rsu_of = rsus.of,
+      .start_paused = arguments.wait,
+      .watchdog = !arguments.no_watchdog,
+      .stall_limit_s = arguments.stall_limit,
+      .replay = arguments.replay.empty() ? "" : std::filesystem::absolute(arguments.replay),
+      .observe = !arguments.quiet,
+      .console = console};
   report::Progress progress;
   const launch::Listener listener =
       arguments.quiet ? launch::Listener() : [&progress](const launch::RunNews& news) { progress.show(news); };
-  const launch::RunReport report =
+  launch::RunReport report =
       request.in_process ? launch::run_in_process(request, listener) : launch::run_processes(request, listener);
   if (!arguments.quiet) progress.finish();
   if (arguments.json) {
@@ -96,7 +86,65 @@ int run(const RunArguments& arguments) {
   const bool failed = report.exit_code == process::kExitInternal || report.exit_code == process::kExitAborted ||
                       report.exit_code == process::kExitIo;
   if (failed && !report.folder.empty()) std::fputs(report::last_words(report).c_str(), stderr);
-  return report.exit_code;
+  return report;
+}
+
+/// Keeps the last picture on show until nobody looks any more. Returns the seed if a viewer wants another run.
+std::optional<std::uint64_t> linger(launch::ConsoleProcess& console) {
+  constexpr double kAlone_s = 10.0;
+  std::fprintf(stderr, "console: shows the end until nobody has looked for 10 s, or Ctrl-C\n");
+  double looked_s = process::wall_s();
+  while (process::stop_signal() == 0 && console.alive() && process::wall_s() - looked_s < kAlone_s) {
+    process::sleep_s(0.05);
+    console.poll();
+    if (const auto seed = console.take_restart()) return seed;
+    if (console.viewers() > 0) looked_s = process::wall_s();
+  }
+  return std::nullopt;
+}
+
+/// Runs under a console: again with another seed and a result folder of its own as often as a viewer asks.
+int run_with_console(RunArguments arguments, scenario::Resolved scenario, const RsuOptions& rsus) {
+  auto started = launch::ConsoleProcess::start(static_cast<std::uint16_t>(arguments.console));
+  if (!started) return report_errors(started.error());
+  launch::ConsoleProcess& console = started.value();
+  const std::string out = arguments.out;
+  for (int runs = 1;; ++runs) {
+    const launch::RunReport report = run_once(arguments, scenario, rsus, &console);
+    auto seed = report.restart;
+    if (!seed) seed = linger(console);
+    if (!seed || process::stop_signal() != 0) {
+      console.end();
+      return report.exit_code;
+    }
+    arguments.scenario.seed = std::to_string(*seed);
+    arguments.replay.clear();
+    if (!out.empty()) arguments.out = out + "-" + std::to_string(runs + 1);
+    auto again = load(arguments.scenario);
+    if (!again) return report_errors(again.error());
+    scenario = std::move(again).value();
+  }
+}
+
+int run(RunArguments arguments) {
+  const auto rsus = rsu_options("--rsu", arguments.rsus);
+  if (!rsus) return report_errors(rsus.error());
+  for (const auto& [rsu, command] : rsus.value().of) arguments.scenario.rsus_of_a_user.push_back(rsu);
+  auto scenario = load(arguments.scenario);
+  if (!scenario) return report_errors(scenario.error());
+  if (const auto pace = pace_of(arguments.pace); !pace) return report_errors(pace.error());
+  if (!arguments.replay.empty()) {
+    if (auto fits = check_replay(arguments, scenario.value()); !fits) return report_errors(fits.error());
+  }
+  if (!arguments.quiet)
+    for (const std::string& warning : scenario::warnings(scenario.value())) process::log_warning(warning);
+  if (arguments.mode == "in-process" && (!arguments.rsus.empty() || arguments.wait || arguments.console != 0)) {
+    return report_errors(
+        {"--mode in-process", "takes neither --rsu nor --wait nor --console: there are no processes to talk to"});
+  }
+  process::catch_stop_signals();
+  if (arguments.console != 0) return run_with_console(arguments, std::move(scenario).value(), rsus.value());
+  return run_once(arguments, std::move(scenario).value(), rsus.value(), nullptr).exit_code;
 }
 
 }  // namespace
@@ -127,7 +175,11 @@ Action add_run(CLI::App& app) {
                                std::string::npos;
         return plain ? std::string() : "must be 1 to 40 letters, digits, `_` or `-`";
       });
-  verb->add_flag("--wait", arguments->wait, "hold the run at step 0 until `lukou ctl RUN resume`");
+  verb->add_flag("--wait", arguments->wait,
+                 "hold the run at step 0 until `lukou ctl RUN resume` or the console starts it");
+  verb->add_flag("--console{8080}", arguments->console,
+                 "show the run in a browser; --console=PORT listens there, or at the next port that is free")
+      ->check(CLI::Range(1, 65535));
   verb->add_flag("--no-watchdog", arguments->no_watchdog, "no deadlines: for a process under a debugger");
   verb->add_flag("--json", arguments->json, "one JSON object on standard output");
   verb->add_flag("--quiet", arguments->quiet, "no progress, no warnings");

@@ -11,10 +11,11 @@
 #include "common/core/hash.hpp"
 #include "common/core/keyed_random.hpp"
 #include "common/process/environment.hpp"
+#include "common/process/run_client.hpp"
+#include "common/process/run_list.hpp"
 #include "common/results/inspection.hpp"
 #include "common/results/result_folder.hpp"
 #include "common/scenario/scenario_steps.hpp"
-#include "services/lukou/control/run_client.hpp"
 #include "services/lukou/launch/child.hpp"
 #include "services/lukou/launch/domain_claim.hpp"
 #include "services/lukou/scenario_arguments.hpp"
@@ -58,7 +59,7 @@ std::string fingerprint(const fs::path& folder) {
 /// Waits until the run is listed; nothing if it ended before.
 std::optional<bus::Address> address_of(const std::string& run, const std::atomic<bool>& over) {
   while (!over) {
-    for (const launch::ListedRun& listed : launch::list_runs())
+    for (const process::ListedRun& listed : process::list_runs())
       if (listed.run == run) return bus::Address{listed.domain, run};
     process::sleep_s(0.01);
   }
@@ -69,7 +70,7 @@ std::optional<bus::Address> address_of(const std::string& run, const std::atomic
 void disturb(const std::string& run, const std::atomic<bool>& over) {
   const auto address = address_of(run, over);
   if (!address) return;
-  auto client = control::RunClient::attach(*address, false);
+  auto client = process::RunClient::attach(*address, false);
   if (!client) return;
   const DrawKey key{.run_seed = process::new_incarnation(), .purpose = Purpose::kTest};
   for (std::uint64_t i = 0; !over; ++i) {
@@ -86,7 +87,7 @@ void disturb(const std::string& run, const std::atomic<bool>& over) {
 void observe(const std::string& run, const std::atomic<bool>& over) {
   const auto address = address_of(run, over);
   while (address && !over) {
-    auto client = control::RunClient::attach(*address, true);
+    auto client = process::RunClient::attach(*address, true);
     if (!client) return;
     for (int i = 0; i < 10 && !over; ++i) client.value()->poll(0.1);
   }

@@ -60,11 +60,15 @@ class Recorder {
     member_.send({.kind = Up::Kind::kCredit, .step = k});
   }
 
+  /// Between the steps: what the last ones left unshown, or the same once more.
+  void show_if_idle() { show(node_.complete_to() > shown_ ? kViewEvery_s : kIdleView_s); }
+
   /// Publishes the picture, unless the last one is younger.
   void show(double every_s) {
     const double now_s = process::wall_s();
     if (now_s - shown_s_ < every_s || node_.complete_to() < 0) return;
     shown_s_ = now_s;
+    shown_ = node_.complete_to();
     node_.fill(view_);
     views_.write(view_);
   }
@@ -116,6 +120,7 @@ class Recorder {
   bus::Writer<View> views_;
   View view_;
   double shown_s_ = 0.0;
+  Step shown_ = -1;
   Step credited_ = -1;
   double credited_s_ = process::wall_s();
   bool closed_ = false;
@@ -156,7 +161,7 @@ int run(int argc, char** argv) {
           if (info.alive) recorder.hear(batch, info.epoch);
         });
         recorder.close_if_last(next);
-        recorder.show(kIdleView_s);
+        recorder.show_if_idle();
       },
       [&](Step k) { return recorder.waiting_for(k); },
       [&](Step k) {

@@ -95,6 +95,7 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
     return Error{"topic lukou/signal", "the batch of step " + std::to_string(new_signal->step) + " leaves a gap"};
   }
   if (new_signal != nullptr) {
+    heads_.take(*new_signal);
     if (auto done = requests_.add(*new_signal); !done) return done;
     for (const RequestRow& row : requests_.rows()) events_.add(row);
   }
@@ -135,7 +136,8 @@ void RecorderNode::add_events(const TrafficBatch& traffic) {
 
 Expected<Done> RecorderNode::add_radio_rows() {
   radio_rows_to_ = step_;
-  for (const ReceptionFigures& figures : reception_.take()) {
+  last_second_ = reception_.take();
+  for (const ReceptionFigures& figures : last_second_) {
     if (auto done = radio_.add(step_, row_of(figures)); !done) return done;
   }
   return Done{};
@@ -195,31 +197,10 @@ void RecorderNode::look_for_anomaly(const TrafficBatch& traffic) {
 
 void RecorderNode::fill(View& view) const {
   view.step = step_;
-  const auto sum = [](const std::vector<std::uint32_t>& column) {
-    std::uint32_t total = 0;
-    for (const std::uint32_t value : column) total += value;
-    return total;
-  };
-  view.arrived = sum(picture_.arrived);
-  view.waiting = sum(picture_.waiting);
-  view.in_system = static_cast<std::uint32_t>(picture_.vehicle.size());
-  view.left = static_cast<std::uint32_t>(measures_.left());
-  view.standing = 0;
-  std::uint64_t stood = 0;
-  for (const LaneTotals& lane : measures_.lanes()) {
-    view.standing += lane.standing_now;
-    stood += lane.standing_steps;
-  }
-  const std::uint64_t entered = measures_.entered();
-  view.mean_stop_time_s = entered == 0 ? 0.0 : static_cast<double>(stood) / 10.0 / static_cast<double>(entered);
-  view.vehicle = picture_.vehicle;
-  view.lane = picture_.lane;
-  view.equipped = picture_.equipped;
-  view.position_m = picture_.position_m;
-  view.speed_mps = picture_.speed_mps;
-  view.heads.clear();
-  if (!promise_.covers(step_)) return;
-  for (const Aspect aspect : promise_.at(step_)) view.heads.push_back(static_cast<std::uint8_t>(aspect));
+  fill_cars(view, picture_, measures_);
+  fill_figures(view, measures_);
+  fill_radio(view, last_second_);
+  heads_.fill(view, promise_);
 }
 
 Expected<Done> RecorderNode::close(const std::string& ended_by, const std::string& culprit) {

@@ -17,6 +17,7 @@
 #include "common/results/tables.hpp"
 #include "common/scenario/directive_log.hpp"
 #include "services/recorder/measure_config.hpp"
+#include "services/recorder/view_columns.hpp"
 
 namespace lukou {
 
@@ -65,8 +66,10 @@ class RecorderNode {
   AdviceLedger ledger_;
   ReceptionMeasures reception_;
   RequestLedger requests_;
-  Step radio_rows_to_ = 0;  ///< the step of the newest rows of radio.csv
+  std::vector<ReceptionFigures> last_second_;  ///< the newest rows of radio.csv
+  Step radio_rows_to_ = 0;                     ///< their step
   SignalPromise promise_;
+  HeadForecast heads_;
   scenario::DirectiveLog log_;
   std::uint64_t deadline_misses_ = 0;
   std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/bus/batches.hpp"
+#include "common/intersection/plan_schedule.hpp"
 #include "services/signal_controller/model/actuated_heads.hpp"
-#include "services/signal_controller/model/plan_schedule.hpp"
 #include "services/signal_controller/model/request_desk.hpp"
 
 namespace lukou {

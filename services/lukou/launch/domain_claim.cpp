@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <fstream>
 #include <utility>
+
+#include "common/process/run_list.hpp"
 
 namespace lukou::launch {
 namespace {
 
 constexpr int kDomainMax = 100;
 const std::string kDomainPrefix = "lukou/domain/";
-const std::string kRunPrefix = "lukou/run/";
 
 /// Binds the abstract name; -1 if somebody has it.
 int bind_abstract(const std::string& name) {
@@ -31,25 +31,13 @@ int bind_abstract(const std::string& name) {
   return -1;
 }
 
-/// The abstract names in this network namespace that begin with `prefix`, without it.
-std::vector<std::string> bound_names(const std::string& prefix) {
-  std::vector<std::string> names;
-  std::ifstream sockets("/proc/net/unix");
-  std::string line;
-  while (std::getline(sockets, line)) {
-    const auto at = line.find(" @" + prefix);
-    if (at != std::string::npos) names.push_back(line.substr(at + 2 + prefix.size()));
-  }
-  return names;
-}
-
 }  // namespace
 
 Expected<DomainClaim> DomainClaim::lowest_free(const std::string& run) {
   for (int domain = 0; domain <= kDomainMax; ++domain) {
     const int domain_socket = bind_abstract(kDomainPrefix + std::to_string(domain));
     if (domain_socket < 0) continue;
-    const int run_socket = bind_abstract(kRunPrefix + run + "/" + std::to_string(domain));
+    const int run_socket = bind_abstract(std::string(process::kRunSocketPrefix) + run + "/" + std::to_string(domain));
     return DomainClaim(domain, domain_socket, run_socket);
   }
   return Error{"DDS domains", "0 to 100 are all claimed by other runs on this host; `lukou ctl list` names them"};
@@ -72,18 +60,8 @@ DomainClaim::~DomainClaim() {
   if (domain_socket_ >= 0) ::close(domain_socket_);
 }
 
-std::vector<ListedRun> list_runs() {
-  std::vector<ListedRun> runs;
-  for (const std::string& name : bound_names(kRunPrefix)) {
-    const auto slash = name.rfind('/');
-    if (slash != std::string::npos) runs.push_back({name.substr(0, slash), std::atoi(name.c_str() + slash + 1)});
-  }
-  std::ranges::sort(runs, {}, &ListedRun::run);
-  return runs;
-}
-
 std::vector<int> free_domains() {
-  const auto claimed = bound_names(kDomainPrefix);
+  const auto claimed = process::bound_names(kDomainPrefix);
   std::vector<int> free;
   for (int domain = 0; domain <= kDomainMax; ++domain) {
     if (std::ranges::find(claimed, std::to_string(domain)) == claimed.end()) free.push_back(domain);

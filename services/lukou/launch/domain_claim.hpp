@@ -27,12 +27,6 @@ class DomainClaim {
   int run_socket_ = -1;
 };
 
-struct ListedRun {
-  std::string run;
-  int domain = -1;
-};
-/// Runs of this host, by name.
-std::vector<ListedRun> list_runs();
 /// Ids in [0, 100] that no run has claimed.
 std::vector<int> free_domains();
 

@@ -8,10 +8,11 @@
 
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
+#include "common/process/run_client.hpp"
 #include "common/scenario/scenario_steps.hpp"
-#include "services/lukou/control/run_client.hpp"
 #include "services/lukou/home.hpp"
 #include "services/lukou/launch/child.hpp"
+#include "services/lukou/launch/console_process.hpp"
 #include "services/lukou/launch/domain_claim.hpp"
 #include "services/lukou/launch/result_of_run.hpp"
 #include "services/lukou/launch/run_request.hpp"
@@ -61,12 +62,14 @@ class Session {
   RunReport run() {
     begun_s_ = process::wall_s();
     if (auto started = start_all(); !started) return failed(process::kExitInternal, started.error());
-    auto client = control::RunClient::attach(address_, request_.observe);
+    auto client = process::RunClient::attach(address_, request_.observe);
     if (!client) return failed(process::kExitAborted, client.error());
     client_ = std::move(client).value();
+    if (request_.console != nullptr) request_.console->show(address_);
     while (!children_.empty()) {
       client_->poll(kPoll_s);
       follow_signals();
+      follow_console();
       for (const ChildExit& ended : children_.reap()) on_exit(ended);
       follow_state();
       end_stragglers();
@@ -179,7 +182,7 @@ class Session {
                  .pace = state->pace};
     if (client_->view()) {
       news.step = std::max<long long>(news.step, client_->view()->step);
-      news.cars_in_system = client_->view()->in_system;
+      news.cars_in_system = client_->view()->figures.in_system.front();
     }
     if (state->phase == RunPhase::kForming && !state->text.empty()) news.phase += " (missing: " + state->text + ")";
     listener_(news);
@@ -190,6 +193,16 @@ class Session {
     interrupted_ = process::stop_signal();
     interrupted_s_ = process::wall_s();
     client_->ask("interrupt");
+  }
+
+  /// A restart ends this run as an operator would; the launcher begins the next.
+  void follow_console() {
+    if (request_.console == nullptr) return;
+    request_.console->poll();
+    const auto seed = request_.console->take_restart();
+    if (!seed) return;
+    restart_ = seed;
+    if (!over()) client_->ask("stop");
   }
 
   void end_stragglers() {
@@ -224,7 +237,9 @@ class Session {
     end.text = text_;
     end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : process::wall_s());
     end.start_up_s = running_s_ != 0.0 ? running_s_ - begun_s_ : 0.0;
-    return finish_result(request_, folder_, end);
+    RunReport report = finish_result(request_, folder_, end);
+    report.restart = restart_;
+    return report;
   }
 
   RunReport failed(int exit_code, const Error& error) {
@@ -243,13 +258,14 @@ class Session {
   DomainClaim claim_;
   bus::Address address_;
   scenario::Protocol protocol_;
-  std::unique_ptr<control::RunClient> client_;
+  std::unique_ptr<process::RunClient> client_;
   Children children_;
   ChildExit clock_exit_;
   std::vector<ChildExit> lost_;
   std::string culprit_;
   std::string text_;
   bool io_failed_ = false;
+  std::optional<std::uint64_t> restart_;
   int interrupted_ = 0;
   double begun_s_ = 0.0;
   double running_s_ = 0.0;

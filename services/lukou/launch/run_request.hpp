@@ -10,6 +10,8 @@
 
 namespace lukou::launch {
 
+class ConsoleProcess;
+
 /// One run as the command line asks for it.
 struct RunRequest {
   scenario::Resolved scenario;
@@ -22,10 +24,11 @@ struct RunRequest {
   std::map<std::uint32_t, std::string> rsu_of{};  ///< the same for single RSUs, by index
   bool start_paused = false;
   bool watchdog = true;
-  std::string stall_limit_s;     ///< empty: the clock's default
-  std::filesystem::path replay;  ///< directives.textproto; empty: none
-  bool observe = true;           ///< attach to the run's picture, for the progress bar
-  std::optional<int> core;       ///< processor for the run's processes; empty: follows the domain id
+  std::string stall_limit_s;          ///< empty: the clock's default
+  std::filesystem::path replay;       ///< directives.textproto; empty: none
+  bool observe = true;                ///< attach to the run's picture, for the progress bar
+  ConsoleProcess* console = nullptr;  ///< shows the run; null: none
+  std::optional<int> core;            ///< processor for the run's processes; empty: follows the domain id
 };
 
 /// What is started as RSU number `rsu`, as in RunRequest::rsu.
@@ -42,6 +45,7 @@ struct RunReport {
   long long steps = 0;  ///< executed and recorded
   double wall_s = 0.0;  ///< from step 0 to the end
   double start_up_s = 0.0;
+  std::optional<std::uint64_t> restart;  ///< a viewer of the console wants the run anew, with this seed
 };
 
 /// What a progress display gets to see, a few times a second.

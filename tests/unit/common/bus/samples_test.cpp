@@ -64,10 +64,10 @@ auto members(TrafficBatch& b) {
 }
 
 auto members(Control& m) {
-  auto& [kind, clock, sequence, to, epoch, rsu, through, last, ok, version, roster_incarnation, roster_role,
+  auto& [kind, clock, sequence, to, epoch, rsu, through, last, ok, number, version, roster_incarnation, roster_role,
          directive_step, directive_set, attach_rsu, attach_epoch, attach_from, text, culprit] = m;
-  return std::tie(kind, clock, sequence, to, epoch, rsu, through, last, ok, version, roster_incarnation, roster_role,
-                  directive_step, directive_set, attach_rsu, attach_epoch, attach_from, text, culprit);
+  return std::tie(kind, clock, sequence, to, epoch, rsu, through, last, ok, number, version, roster_incarnation,
+                  roster_role, directive_step, directive_set, attach_rsu, attach_epoch, attach_from, text, culprit);
 }
 
 auto members(Up& m) {
@@ -80,11 +80,21 @@ auto members(RunState& m) {
   return std::tie(run, phase, granted, recorded, end, pace, text, culprit);
 }
 
+auto members(FigureColumns& f) {
+  auto& [arrived, waiting, in_system, left, standing, stops, throughput, per_vehicle, stop_time, mean_stop_time,
+         mean_delay] = f;
+  return std::tie(arrived, waiting, in_system, left, standing, stops, throughput, per_vehicle, stop_time,
+                  mean_stop_time, mean_delay);
+}
+
 auto members(View& m) {
-  auto& [step, arrived, waiting, in_system, left, standing, stop_time, vehicle, lane, equipped, position, speed,
-         heads] = m;
-  return std::tie(step, arrived, waiting, in_system, left, standing, stop_time, vehicle, lane, equipped, position,
-                  speed, heads);
+  auto& [step, figures, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed, acceleration,
+         commanded, guidance, bound_by, missed, stood, advice, heads, change, next, direction, kind, sent, radio_heard,
+         lost, latency] = m;
+  return std::tuple_cat(std::tie(step, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed,
+                                 acceleration, commanded, guidance, bound_by, missed, stood, advice, heads, change,
+                                 next, direction, kind, sent, radio_heard, lost, latency),
+                        members(figures));
 }
 
 /// Gives every member a value that no other one has.

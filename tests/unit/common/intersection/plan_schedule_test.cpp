@@ -1,4 +1,4 @@
-#include "services/signal_controller/model/plan_schedule.hpp"
+#include "common/intersection/plan_schedule.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "services/lukou/control/run_client.hpp"
+#include "common/process/run_client.hpp"
 
 #include <utility>
 
 #include "common/process/environment.hpp"
 
-namespace lukou::control {
+namespace lukou::process {
 namespace {
 
 constexpr double kAskAgain_s = 0.2;
@@ -12,13 +12,17 @@ constexpr double kAskAgain_s = 0.2;
 }  // namespace
 
 Expected<std::unique_ptr<RunClient>> RunClient::attach(const bus::Address& address, bool with_view) {
-  auto participant = bus::Participant::join(address, process::new_incarnation());
+  auto participant = bus::Participant::join(address, new_incarnation());
   if (!participant) return participant.error();
   return std::unique_ptr<RunClient>(new RunClient(std::move(participant).value(), with_view));
 }
 
 RunClient::RunClient(std::unique_ptr<bus::Participant> participant, bool with_view)
-    : participant_(std::move(participant)), up_(*participant_), control_(*participant_), states_(*participant_) {
+    : participant_(std::move(participant)),
+      up_(*participant_),
+      control_(*participant_),
+      states_(*participant_),
+      heard_s_(wall_s()) {
   if (with_view) views_.emplace(*participant_);
   participant_->keep_writing_while([] { return false; });
 }
@@ -26,37 +30,47 @@ RunClient::RunClient(std::unique_ptr<bus::Participant> participant, bool with_vi
 void RunClient::poll(double timeout_s) {
   participant_->wait(timeout_s);
   control_.take([this](Control& control, const bus::SampleInfo& info) {
-    if (!info.alive || control.kind != Control::Kind::kReply || control.to != participant_->self()) return;
-    reply_ = control;
-    request_.reset();
+    const bool to_us = control.to == participant_->self();
+    if (!info.alive || (control.to != 0 && !to_us)) return;
+    if (control.kind == Control::Kind::kReply) {
+      if (!request_ || control.number != request_->number) return;  // answered already
+      reply_ = control;
+      request_.reset();
+    }
+    if (heard_) heard_(control);
   });
   // Discovery goes both ways: what was said or answered before the other side had matched is lost.
-  if (request_ && process::wall_s() - asked_s_ > kAskAgain_s) {
-    asked_s_ = process::wall_s();
+  if (request_ && wall_s() - asked_s_ > kAskAgain_s) {
+    asked_s_ = wall_s();
     up_.write(*request_);
   }
   states_.take([this](RunState& state, const bus::SampleInfo& info) {
-    if (info.alive) state_ = state;
+    if (!info.alive) return;
+    state_ = state;
+    heard_s_ = wall_s();
   });
   if (!views_) return;
   views_->take([this](View& view, const bus::SampleInfo& info) {
-    if (!info.alive) return;
+    if (!info.alive || !view.well_formed()) return;
     if (!view_) view_.emplace();
     std::swap(*view_, view);
+    ++views_taken_;
   });
 }
+
+double RunClient::clock_silent_s() const { return wall_s() - heard_s_; }
 
 bool RunClient::connected() const { return !up_.matched().empty() && !control_.matched().empty(); }
 
 void RunClient::ask(const std::string& request) {
   request_ = Up{.kind = Up::Kind::kRequest, .role = std::string(kObserverRole), .number = ++requests_, .text = request};
-  asked_s_ = process::wall_s();
+  asked_s_ = wall_s();
   up_.write(*request_);
 }
 
 Expected<std::string> RunClient::request(const std::string& request, double limit_s) {
-  const double begin_s = process::wall_s();
-  const auto late = [&] { return process::wall_s() - begin_s > limit_s; };
+  const double begin_s = wall_s();
+  const auto late = [&] { return wall_s() - begin_s > limit_s; };
   while (!connected() && !late()) poll(0.02);
   if (!late()) ask(request);
   while (!reply_ && !late()) poll(0.05);
@@ -70,4 +84,4 @@ void RunClient::report_lost(const std::string& role, const std::string& how) {
   up_.write({.kind = Up::Kind::kLost, .role = role, .text = how});
 }
 
-}  // namespace lukou::control
+}  // namespace lukou::process

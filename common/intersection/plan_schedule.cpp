@@ -1,4 +1,4 @@
-#include "services/signal_controller/model/plan_schedule.hpp"
+#include "common/intersection/plan_schedule.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,10 @@
 
 namespace lukou {
 
-PlanSchedule::PlanSchedule(SignalPlan first) { plans_.push_back({std::numeric_limits<Step>::min(), std::move(first)}); }
+PlanSchedule::PlanSchedule(SignalPlan first) {
+  const Step offset = first.offset;
+  plans_.push_back({std::numeric_limits<Step>::min(), offset, std::move(first)});
+}
 
 const PlanSchedule::Running& PlanSchedule::running_at(Step step) const {
   for (const Running& running : plans_ | std::views::reverse)
@@ -18,8 +21,9 @@ const PlanSchedule::Running& PlanSchedule::running_at(Step step) const {
 void PlanSchedule::change(SignalPlan next, Step earliest) {
   while (plans_.size() > 1 && plans_.back().from >= earliest) plans_.pop_back();
   const Step from = next_cycle_start(plans_.back().plan, earliest);
+  const Step offset = next.offset;
   next.offset += from;
-  plans_.push_back({from, std::move(next)});
+  plans_.push_back({from, offset, std::move(next)});
 }
 
 Heads PlanSchedule::heads(Step step) const {

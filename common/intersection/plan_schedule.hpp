@@ -23,6 +23,13 @@ class PlanSchedule {
   /// (plus its offset). A change that has not taken effect by `earliest` is replaced.
   void change(SignalPlan next, Step earliest);
 
+  /// A plan with the step from which it runs; the first one always has.
+  struct Running {
+    Step from = 0;
+    Step offset = 0;  ///< as it was set; that of `plan` counts from step 0
+    SignalPlan plan;
+  };
+  [[nodiscard]] const Running& running_at(Step step) const;
   [[nodiscard]] Heads heads(Step step) const;
   /// Changes of a lane's head in (from, to], in order.
   [[nodiscard]] std::vector<HeadChange> changes(Lane lane, Step from, Step to) const;
@@ -31,12 +38,6 @@ class PlanSchedule {
   void forget_before(Step step);
 
  private:
-  struct Running {
-    Step from;
-    SignalPlan plan;
-  };
-  [[nodiscard]] const Running& running_at(Step step) const;
-
   std::deque<Running> plans_;  ///< by `from`, never empty
 };
 
