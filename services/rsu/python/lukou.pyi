@@ -174,7 +174,7 @@ class RsuView:
         """None: the controller runs a fixed plan and refuses every request."""
     @property
     def promised_to_s(self) -> float:
-        """Up to this time the heads are promised: no request changes them any more."""
+        """Up to this time the RSU knows the heads for certain; a request acts later."""
     def promised_green(self) -> list[str]:
         """The lanes whose heads show green then."""
     @property

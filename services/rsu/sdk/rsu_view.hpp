@@ -69,8 +69,8 @@ struct RsuView {
   MapView map;
   /// What the controller keeps whatever an RSU asks for. Empty: it runs a fixed plan and refuses every request.
   std::optional<Actuation> actuation;
-  /// Up to this step the heads are promised: no request changes them any more. A request of this step acts after it,
-  /// from step + 1 + run.signal_promise_steps on.
+  /// Up to this step this RSU knows the heads for certain. A request of this step acts later, from step + 1 +
+  /// run.signal_promise_steps on; what the controller has decided for the steps between is not known here yet.
   Step promised_to = 0;
   std::array<LaneView, kLanes> lanes;  ///< WL WC WR SL SC SR EL EC ER NL NC NR
 };
