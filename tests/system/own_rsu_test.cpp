@@ -304,6 +304,14 @@ TEST_F(OwnRsu, ThatAsksForGreensUnderAFixedPlanIsRefusedAndTold) {
   EXPECT_EQ(signals.at("requests_accepted"), 0);
 }
 
+TEST_F(OwnRsu, WrittenInCTakesPartUnderAControllerThatHearsRequests) {
+  const Finished in_c =
+      shell("lukou run paper --duration 60 --quiet --set signals.actuation={} --out c_actuated --rsu " LUKOU_BUILD
+            "/tests/rsu_in_c");
+  EXPECT_EQ(in_c.code, 0) << in_c.err;
+  expect_sound("c_actuated", 600);
+}
+
 TEST_F(OwnRsu, KeepsNoViewBeyondItsStep) {
   const Finished run = run_python("keeps", "Rsu.kept = getattr(Rsu, 'kept', heard); Rsu.kept.time_s");
   EXPECT_EQ(run.code, 3);

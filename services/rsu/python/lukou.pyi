@@ -182,7 +182,7 @@ class RsuView:
         """None: the controller runs a fixed plan and refuses every request."""
     @property
     def promised_to_s(self) -> float:
-        """Up to this time the heads are promised: no request changes them any more."""
+        """Up to this time the RSU knows the heads for certain; a request acts later."""
     @property
     def request_acts_s(self) -> float:
         """From then on a request of this step can change the heads."""

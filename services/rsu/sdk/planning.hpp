@@ -27,7 +27,7 @@ std::optional<GreenWindow> green_at_or_after(const LaneView& lane, double time_s
 /// What the lane's head will show at `step` >= now, as far as the RSU knows: what the last known change up to then
 /// leads to. Certain up to RsuView::promised_to.
 Aspect aspect_at(const LaneView& lane, Step step);
-/// The lanes whose heads show green at the last promised step: a request that names them asks for no change.
+/// The lanes whose heads show green at the last step that is known for certain, RsuView::promised_to.
 LaneSet promised_green(const RsuView& view);
 
 /// Time to the line of a car with nobody ahead [s], which speeds up at `acceleration_mps2` > 0 until it drives at

@@ -55,7 +55,9 @@ LaneSet ActuatedHeads::target(Step at, LaneSet wanted) {
     if (!barred.contains(lane)) served_.insert(lane);
     barred = barred | hard_conflicts(lane);
   }
-  return served_ | (wanted - hard_conflicts(served_));
+  const LaneSet together = served_ | (wanted - hard_conflicts(served_));
+  LUKOU_EXPECT(!has_hard_conflict(together));
+  return together;
 }
 
 void ActuatedHeads::show(Lane lane, Aspect aspect, Step at) {
