@@ -54,7 +54,7 @@ struct SettledAdvice {
   std::optional<Step> first_used;  ///< empty: never, as the next
   std::optional<Step> last_used;
   std::string_view kind = "acceleration";  ///< name of an AdviceKind; text that lives for ever
-  std::optional<double> speed_mps{};       ///< that it asked for
+  std::optional<double> speed_mps;         ///< that it asked for
 };
 
 /// A row of guidance.csv, too: an RSU computed longer than a step.
