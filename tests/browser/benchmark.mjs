@@ -42,7 +42,7 @@ async function echo({ page, heard }) {
   const times = [];
   const west = page.getByRole('spinbutton', { name: 'West' });
   for (let i = 0; i < 10; ++i) {
-    await west.fill(String(1800 + i));
+    await west.fill(String(1801 + i));
     const before = heard.events.length;
     const from = performance.now();
     await west.press('Enter');

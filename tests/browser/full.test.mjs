@@ -1,9 +1,11 @@
 // Everything a user does with the page, against real processes.
 import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
 import { carsInSight, coloursAt, EQUIPPED, UNEQUIPPED } from './pixels.mjs';
-import { attach, axeFindings, launch, memberPid, openPage, startRun, stepOf, until } from './session.mjs';
+import { attach, axeFindings, launch, memberPid, openPage, runToEnd, startRun, stepOf, until } from './session.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -373,5 +375,38 @@ describe('what goes wrong, and the end', { timeout: 150_000 }, () => {
     assert.ok(await page.getByRole('button', { name: 'Step' }).isDisabled());
     await close();
     assert.equal(await run.process.ended, 0);
+  });
+});
+
+describe('the results', { timeout: 150_000 }, () => {
+  test('a session of clicks, replayed from its directives, gives the same bytes again', async (t) => {
+    const length = ['--duration', '200'];
+    const run = await startRun(['--pace', '20', ...length]);
+    t.after(() => run.end());
+    const { page, heard, close } = await openPage(browser, run.url);
+    const ratio = page.getByRole('spinbutton', { name: 'Equipped ratio' });
+    await ratio.fill('0.4');
+    await ratio.press('Enter');
+    await page.locator('#picture').press(' ');
+    await until(() => heard.status.phase === 'paused', 'paused');
+    await slideTo(page, page.getByRole('slider', { name: 'West' }), 0.8);
+    await page.locator('#picture').press('.');
+    await tab(page, 'Signals');
+    await page.getByRole('tabpanel').getByRole('combobox').selectOption('PROTECTED_LEFT');
+    await page.getByRole('button', { name: 'Apply' }).click();
+    await until(() => directives(heard).length === 3, 'three directives');
+    await speed(page, 'Max');
+    await page.locator('#picture').press(' ');
+    await until(() => heard.status.phase === 'ended', 'the end', 60_000);
+    await close();
+    assert.equal(await run.process.ended, 0);
+    const again = join(run.out, '..', 'again');
+    await runToEnd(['--quiet', '--out', again, '--replay-directives', join(run.out, 'directives.textproto'), ...length]);
+    // Facts of the wall clock stand in these two and nowhere else.
+    const compared = readdirSync(run.out).filter((name) => !['timing.json', 'operator.log'].includes(name));
+    assert.ok(compared.includes('car.csv') && compared.includes('directives.textproto'), compared.join());
+    for (const name of compared) {
+      assert.ok(readFileSync(join(run.out, name)).equals(readFileSync(join(again, name))), `${name} differs`);
+    }
   });
 });

@@ -97,6 +97,13 @@ function runIds() {
   return listed.split('\n').map((line) => line.split(/\s+/)[0]).filter((id) => id !== '');
 }
 
+/** Runs without a console, to the end. */
+export async function runToEnd(args, scenario = 'paper') {
+  const run = new Process(lukou, ['run', scenario, ...args]);
+  const code = await run.ended;
+  if (code !== 0) throw new Error(`exit code ${code}\n${run.output}`);
+}
+
 /** A second console on a run. */
 export async function attach(id) {
   const process = new Process(join(programs, 'lukou-console'), ['--attach', id, '--port', '0']);
