@@ -59,6 +59,8 @@ class Script {
     batch_.fate_issued.push_back(issued);
     batch_.fate.push_back(static_cast<std::uint8_t>(fate));
     batch_.fate_again.push_back(again ? 1 : 0);
+    batch_.fate_issued.push_back(0);
+    batch_.fate_kind.push_back(static_cast<std::uint8_t>(AdviceKind::kAcceleration));
   }
   void counts(std::uint32_t arrived, std::uint32_t arrived_equipped, std::uint32_t waiting) {
     batch_.arrived = {arrived, 0, 0, 0};

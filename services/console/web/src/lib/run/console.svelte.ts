@@ -1,0 +1,186 @@
+// All that the page knows: what the server said, newest last, and what the user looks at. Nothing of the simulation stands here
+// that did not come over the wire.
+import type {
+  Event,
+  Hands,
+  Hello,
+  Reply,
+  RunStatus,
+  Statistics,
+  ToPage,
+} from '../../generated/console_pb';
+import { Path } from '../view/path';
+import { Playback } from '../view/playback';
+import { Connection, type LinkState } from '../wire/connection';
+import { sceneOf, type Scene } from '../wire/scene';
+import { arrivedAt, asked, directed, fieldsOf, refusedWith, type Fields } from './fields';
+import { ThinningRing } from './ring';
+
+/** Pictures kept for looking back: two to four minutes step by step at real time, and everything before more coarsely. */
+const SCENES_KEPT = 2400;
+const SAMPLES_KEPT = 1600;
+const EVENTS_KEPT = 300;
+/** How often the parts of the page that follow the picture are brought up to date [ms]. */
+const FOLLOW_MS = 200;
+
+export interface Sample {
+  readonly step: number;
+  readonly statistics: Statistics;
+}
+
+export interface Note {
+  readonly step: number;
+  readonly kind: string;
+  readonly text: string;
+}
+
+export class Console {
+  link = $state<LinkState>('connecting');
+  hello = $state.raw<Hello | null>(null);
+  status = $state.raw<RunStatus | null>(null);
+  statistics = $state.raw<Statistics | null>(null);
+  hands = $state.raw<Hands | null>(null);
+  notes = $state.raw<readonly Note[]>([]);
+  fields = $state.raw<Fields>(new Map());
+  refusal = $state(''); // of the last request that was refused
+  newest = $state.raw<Scene | null>(null); // follows the newest picture a few times a second
+  samplesSeen = $state(0); // counts changes of `samples`
+  scrubbed = $state<number | null>(null); // step that the user looks back at; null: live
+
+  paths: readonly Path[] = $derived((this.hello?.lanes ?? []).map((lane) => new Path(lane)));
+  stepS = $derived(this.hello?.stepS ?? 0.1);
+  inControl = $derived(this.hands !== null && this.hands.holder !== 0 && this.hands.holder === this.hello?.viewer);
+  mayAct = $derived(this.link === 'open' && (this.inControl || (this.hands?.holder ?? 0) === 0));
+  over = $derived(this.status?.phase === 'ended' || this.status?.phase === 'aborted');
+
+  readonly scenes = new ThinningRing<Scene>(SCENES_KEPT);
+  readonly samples = new ThinningRing<Sample>(SAMPLES_KEPT);
+  readonly playback = new Playback();
+  private readonly connection: Connection;
+  private greeted = false; // on this connection
+  private followedMs = 0;
+  private following: ReturnType<typeof setTimeout> | undefined;
+  private undrawn: number[] = []; // steps of pictures that came since the last frame
+
+  constructor(url: string) {
+    this.connection = new Connection(url, {
+      message: (message) => this.take(message),
+      state: (state) => this.linked(state),
+    });
+    this.connection.open();
+  }
+
+  /** Asks for something; takes control first if nobody has it. Refusals are also kept in `refusal`. */
+  async ask(text: string): Promise<Reply | null> {
+    if (!this.inControl) this.connection.takeControl(false);
+    const reply = await this.connection.request(text);
+    this.refusal = reply !== null && !reply.ok ? reply.text : '';
+    return reply;
+  }
+
+  async set(path: string, value: string): Promise<Reply | null> {
+    this.fields = asked(this.fields, path, value);
+    const reply = await this.ask(`set ${path}=${value}`);
+    if (reply === null || !reply.ok) this.fields = refusedWith(this.fields, path, reply?.text ?? '');
+    return reply;
+  }
+
+  takeControl(): void {
+    this.connection.takeControl(true);
+  }
+
+  releaseControl(): void {
+    this.connection.releaseControl();
+  }
+
+  /** Looks `by` pictures back or forth from the one that is shown; beyond the newest it is live again. */
+  lookBy(by: number): void {
+    const from = this.scrubbed ?? this.scenes.last?.step ?? -1;
+    const index = Math.max(0, this.scenes.indexAt(from) + by);
+    this.scrubbed = index >= this.scenes.length - 1 ? null : this.scenes.at(index)?.step ?? null;
+  }
+
+  /** What has come is on the screen: the next pictures may come. */
+  drawn(): void {
+    for (const step of this.undrawn) this.connection.drawn(step);
+    this.undrawn = [];
+  }
+
+  private linked(state: LinkState): void {
+    this.link = state;
+    this.greeted = false;
+  }
+
+  private take({ what }: ToPage): void {
+    switch (what.case) {
+      case 'hello':
+        return this.greet(what.value);
+      case 'status':
+        this.status = what.value;
+        return;
+      case 'picture':
+        return this.show(sceneOf(what.value, this.scenes.last));
+      case 'statistics':
+        this.statistics = what.value;
+        return this.sample(what.value);
+      case 'history':
+        for (const statistics of what.value.samples) this.sample(statistics);
+        this.statistics ??= what.value.samples[what.value.samples.length - 1] ?? null;
+        for (const event of what.value.events) this.note(event);
+        return;
+      case 'event':
+        return this.note(what.value);
+      case 'hands':
+        this.hands = what.value;
+    }
+  }
+
+  /** A new connection: of the same run the pictures so far stay. A second hello on a connection: another run began. */
+  private greet(hello: Hello): void {
+    if (this.greeted || hello.run !== this.hello?.run) {
+      this.scenes.clear();
+      this.newest = null;
+      this.scrubbed = null;
+      this.statistics = null;
+    }
+    this.greeted = true;
+    this.samples.clear();
+    this.notes = [];
+    this.playback.reset();
+    this.undrawn = [];
+    this.hello = hello;
+    this.fields = fieldsOf(hello.live);
+  }
+
+  private show(scene: Scene): void {
+    const nowMs = performance.now();
+    if (this.scenes.last !== null && scene.step < this.scenes.last.step) this.scrubbed = null;
+    this.scenes.push(scene);
+    this.playback.arrived(scene.step, nowMs);
+    this.undrawn.push(scene.step);
+    if (this.following !== undefined) return;
+    if (nowMs - this.followedMs >= FOLLOW_MS) this.follow();
+    else this.following = setTimeout(() => this.follow(), FOLLOW_MS);
+  }
+
+  /** Brings what follows the picture up to date. */
+  private follow(): void {
+    this.following = undefined;
+    this.followedMs = performance.now();
+    this.newest = this.scenes.last;
+    if (this.newest !== null) this.fields = arrivedAt(this.fields, this.newest.step);
+  }
+
+  private sample(statistics: Statistics): void {
+    this.samples.push({ step: Number(statistics.step), statistics });
+    ++this.samplesSeen;
+  }
+
+  private note(event: Event): void {
+    const note = { step: Number(event.step), kind: event.kind, text: event.text };
+    this.notes = [...this.notes, note].slice(-EVENTS_KEPT);
+    if (note.kind === 'directive') {
+      this.fields = directed(this.fields, note.text, note.step, this.scenes.last?.step ?? -1);
+    }
+  }
+}

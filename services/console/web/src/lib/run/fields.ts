@@ -1,0 +1,71 @@
+// The fields that may change while a run goes on: their value in force, the one that is on its way, and what was refused.
+import type { LiveField } from '../../generated/console_pb';
+
+export interface FieldState {
+  readonly path: string;
+  readonly unit: string;
+  readonly min: number | null;
+  readonly max: number | null;
+  readonly source: string;
+  readonly words: readonly string[];
+  readonly value: string; // in force
+  readonly pending: { value: string; step: number | null } | null; // asked, or accepted from `step` on
+  readonly refusal: string;
+}
+
+export type Fields = ReadonlyMap<string, FieldState>;
+
+export function fieldsOf(live: readonly LiveField[]): Map<string, FieldState> {
+  return new Map(
+    live.map((f) => [
+      f.path,
+      {
+        path: f.path,
+        unit: f.unit,
+        min: f.min ?? null,
+        max: f.max ?? null,
+        source: f.source,
+        words: f.words,
+        value: f.value,
+        pending: null,
+        refusal: '',
+      },
+    ]),
+  );
+}
+
+function changed(fields: Fields, path: string, change: Partial<FieldState>): Fields {
+  const field = fields.get(path);
+  return field === undefined ? fields : new Map(fields).set(path, { ...field, ...change });
+}
+
+export function asked(fields: Fields, path: string, value: string): Fields {
+  return changed(fields, path, { pending: { value, step: null }, refusal: '' });
+}
+
+export function refusedWith(fields: Fields, path: string, text: string): Fields {
+  return changed(fields, path, { pending: null, refusal: text });
+}
+
+/** A directive "path=value" that acts from `step` on; `shown`: the newest step that the page has. */
+export function directed(fields: Fields, text: string, step: number, shown: number): Fields {
+  const directive = directiveIn(text);
+  if (directive === null) return fields;
+  const { path, value } = directive;
+  if (step <= shown) return changed(fields, path, { value, pending: null, refusal: '' });
+  return changed(fields, path, { pending: { value, step }, refusal: '' });
+}
+
+/** Values whose step has come are in force. */
+export function arrivedAt(fields: Fields, shown: number): Fields {
+  let result = fields;
+  for (const [path, { pending }] of fields) {
+    if (pending?.step != null && pending.step <= shown) result = changed(result, path, { value: pending.value, pending: null });
+  }
+  return result;
+}
+
+export function directiveIn(text: string): { path: string; value: string } | null {
+  const at = text.indexOf('=');
+  return at <= 0 ? null : { path: text.slice(0, at).trim(), value: text.slice(at + 1).trim() };
+}

@@ -1,0 +1,54 @@
+// Columns for the charts, out of the stored samples.
+import type { Statistics } from '../../generated/console_pb';
+import { LANES } from '../wire/scene';
+import type { Sample } from './console.svelte';
+
+export type Column = (number | null)[];
+
+export interface Line {
+  readonly label: string; // key of the page's words, or a lane
+  readonly of: (statistics: Statistics) => number | undefined;
+}
+
+export interface Chart {
+  readonly name: string;
+  readonly lines: readonly Line[];
+}
+
+const groups = (of: (figures: Statistics['all'] & {}) => number | undefined): Line[] => [
+  { label: 'tile.all', of: (s) => s.all && of(s.all) },
+  { label: 'tile.equipped', of: (s) => s.equipped && of(s.equipped) },
+  { label: 'tile.unequipped', of: (s) => s.unequipped && of(s.unequipped) },
+];
+
+export const CHARTS: readonly Chart[] = [
+  { name: 'stopTime', lines: groups((f) => f.meanStopTimeS) },
+  { name: 'throughput', lines: groups((f) => f.throughputVehPerH) },
+  { name: 'queue', lines: LANES.map((lane, i) => ({ label: lane, of: (s: Statistics) => s.queue[i] })) },
+  { name: 'delay', lines: groups((f) => f.meanDelayS) },
+  { name: 'pace', lines: [{ label: 'chart.achieved', of: (s) => s.paceAchieved }] },
+  {
+    name: 'delivery',
+    lines: [
+      { label: 'chart.up', of: (s) => s.deliveryRatioUp },
+      { label: 'chart.down', of: (s) => s.deliveryRatioDown },
+    ],
+  },
+  {
+    name: 'latency',
+    lines: [
+      { label: 'chart.up', of: (s) => s.latencyUpMs },
+      { label: 'chart.down', of: (s) => s.latencyDownMs },
+    ],
+  },
+];
+
+/** Time [s] and a column per line. */
+export function columnsOf(chart: Chart, samples: readonly Sample[], stepS: number): [number[], ...Column[]] {
+  const times = samples.map((sample) => sample.step * stepS);
+  return [times, ...chart.lines.map((line) => samples.map(({ statistics }) => numberOrGap(line.of(statistics))))];
+}
+
+function numberOrGap(value: number | undefined): number | null {
+  return value === undefined || !Number.isFinite(value) ? null : value;
+}

@@ -1,0 +1,165 @@
+// Cars: true length and width, turned along their path. With an on-board unit: a bright mark on the roof.
+import type { Scene } from '../wire/scene';
+import { ADVICE_IN_FORCE, NOTHING_MISSED } from '../wire/scene';
+import type { Camera } from './camera';
+import { carColour, type Colouring } from './colouring';
+import type { Moment } from './interpolation';
+import type { Palette } from './palette';
+import type { Path } from './path';
+
+export interface CarLook {
+  lengthM: number;
+  widthM: number;
+  speedLimitMps: number;
+  stepS: number;
+  palette: Palette;
+  colouring: Colouring;
+  selected: number | null;
+  radio: boolean; // draw who hears and who missed a word
+}
+
+/** Harder than this the brake lights are on [m/s2]; also while a car stands. */
+const BRAKE_LIGHTS_MPS2 = -0.4;
+const STANDS_MPS = 0.15;
+
+const front = { xM: 0, yM: 0 };
+const rear = { xM: 0, yM: 0 };
+
+/** Draws every car of the moment that is in sight; gives their number. */
+export function drawCars(
+  context: CanvasRenderingContext2D,
+  camera: Camera,
+  paths: readonly Path[],
+  moment: Moment,
+  look: CarLook,
+): number {
+  const { scene } = moment;
+  let drawn = 0;
+  for (let i = 0; i < scene.vehicle.length; ++i) {
+    const path = paths[scene.lane[i]];
+    if (path === undefined) continue;
+    const at = moment.positionM[i];
+    path.at(at, front);
+    path.at(at - look.lengthM, rear);
+    const x = camera.toScreenX(front.xM);
+    const y = camera.toScreenY(front.yM);
+    const margin = look.lengthM * camera.scale + 20;
+    if (x < -margin || y < -margin || x > camera.size.width + margin || y > camera.size.height + margin) continue;
+    const heading = Math.atan2(-(front.yM - rear.yM), front.xM - rear.xM);
+    const cos = Math.cos(heading) * camera.scale;
+    const sin = Math.sin(heading) * camera.scale;
+    context.save();
+    context.transform(cos, sin, -sin, cos, x, y);
+    drawCar(context, camera.scale, scene, i, look);
+    context.restore();
+    ++drawn;
+  }
+  return drawn;
+}
+
+/** In the car's own frame: metres, front at the origin, looking along +x. */
+function drawCar(context: CanvasRenderingContext2D, scale: number, scene: Scene, i: number, look: CarLook): void {
+  const { lengthM, widthM, palette } = look;
+  const half = widthM / 2;
+  // Far away a car must still be seen: at least two pixels wide.
+  const grown = Math.max(1, 2 / (widthM * scale));
+  if (grown > 1) {
+    context.fillStyle = carColour(scene, i, look.colouring, palette, look.speedLimitMps);
+    context.fillRect(-lengthM, -half * grown, lengthM, widthM * grown);
+    if (scene.vehicle[i] === look.selected) ring(context, scale, look, palette.selected);
+    return;
+  }
+  context.fillStyle = carColour(scene, i, look.colouring, palette, look.speedLimitMps);
+  context.beginPath();
+  context.roundRect(-lengthM, -half, lengthM, widthM, [0.35, 0.75, 0.75, 0.35]);
+  context.fill();
+  if (scale > 2.5) {
+    context.fillStyle = palette.glass;
+    context.fillRect(-lengthM * 0.36, -half * 0.78, 0.5, widthM * 0.78);
+    context.fillRect(-lengthM * 0.86, -half * 0.72, 0.3, widthM * 0.72);
+  }
+  if (scene.equipped[i]) {
+    context.fillStyle = palette.roofMark;
+    context.beginPath();
+    context.arc(-lengthM * 0.58, 0, 0.42, 0, 2 * Math.PI);
+    context.fill();
+  }
+  if (scene.accelerationMps2[i] < BRAKE_LIGHTS_MPS2 || scene.speedMps[i] < STANDS_MPS) {
+    context.fillStyle = palette.outline;
+    context.fillRect(-lengthM - 0.12, -half, 0.55, 0.66);
+    context.fillRect(-lengthM - 0.12, half - 0.66, 0.55, 0.66);
+    context.fillStyle = palette.brake;
+    context.fillRect(-lengthM - 0.05, -half + 0.06, 0.4, 0.54);
+    context.fillRect(-lengthM - 0.05, half - 0.6, 0.4, 0.54);
+  }
+  if (scene.guidance[i] === ADVICE_IN_FORCE) drawAdvice(context, scene.commandedMps2[i], look);
+  if (look.radio && scene.equipped[i]) drawRadio(context, scale, scene, i, look);
+  if (scene.vehicle[i] === look.selected) ring(context, scale, look, palette.selected);
+}
+
+/** The acceleration that is asked for: a bar along the car's left side from its middle, forward or backward, 1 m per m/s2. */
+function drawAdvice(context: CanvasRenderingContext2D, commandedMps2: number, look: CarLook): void {
+  const side = -look.widthM / 2 - 0.42;
+  const middle = -look.lengthM / 2;
+  context.fillStyle = look.palette.advice;
+  context.fillRect(middle - 0.14, side - 0.14, 0.28, 0.4);
+  if (!Number.isFinite(commandedMps2)) return;
+  const reach = Math.max(-3, Math.min(3, commandedMps2));
+  context.fillRect(Math.min(middle, middle + reach), side, Math.abs(reach), 0.26);
+}
+
+function drawRadio(context: CanvasRenderingContext2D, scale: number, scene: Scene, i: number, look: CarLook): void {
+  const missed = scene.missed[i] !== NOTHING_MISSED;
+  const fresh = scene.adviceAge[i] >= 0 && scene.adviceAge[i] <= 1;
+  if (!missed && !fresh) return;
+  const middle = -look.lengthM / 2;
+  context.lineWidth = Math.max(0.25, 1.3 / scale);
+  context.strokeStyle = missed ? look.palette.lost : look.palette.advice;
+  context.beginPath();
+  if (missed) {
+    for (const side of [-1, 1]) {
+      context.moveTo(middle - 1.3, -1.3 * side);
+      context.lineTo(middle + 1.3, 1.3 * side);
+    }
+  } else {
+    context.arc(middle, 0, look.lengthM * 0.62, 0, 2 * Math.PI);
+  }
+  context.stroke();
+}
+
+function ring(context: CanvasRenderingContext2D, scale: number, look: CarLook, colour: string): void {
+  context.strokeStyle = colour;
+  context.lineWidth = 2 / scale;
+  const gap = 4 / scale;
+  context.strokeRect(
+    -look.lengthM - gap,
+    -look.widthM / 2 - gap,
+    look.lengthM + 2 * gap,
+    look.widthM + 2 * gap,
+  );
+}
+
+/** The car at a place of the screen, or null; `slackPx` around it counts too. */
+export function carAt(
+  camera: Camera,
+  paths: readonly Path[],
+  moment: Moment,
+  lengthM: number,
+  px: number,
+  py: number,
+  slackPx = 8,
+): number | null {
+  let best: number | null = null;
+  let bestPx = Math.max(slackPx, (lengthM / 2) * camera.scale);
+  for (let i = 0; i < moment.scene.vehicle.length; ++i) {
+    const path = paths[moment.scene.lane[i]];
+    if (path === undefined) continue;
+    path.at(moment.positionM[i] - lengthM / 2, front);
+    const distance = Math.hypot(camera.toScreenX(front.xM) - px, camera.toScreenY(front.yM) - py);
+    if (distance < bestPx) {
+      bestPx = distance;
+      best = moment.scene.vehicle[i];
+    }
+  }
+  return best;
+}

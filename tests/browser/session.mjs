@@ -1,0 +1,163 @@
+// Starts real runs and opens the real page on them. Everything that is started here is ended by its pid.
+import { execFileSync, spawn } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const root = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
+export const web = join(root, 'services', 'console', 'web');
+const require = createRequire(join(web, 'package.json'));
+export const { chromium } = require('playwright-core');
+export const axeSource = require('axe-core').source;
+
+/** Folder of the programs under test. */
+export const programs = process.env.LUKOU_BIN ?? join(root, 'build', 'bin');
+const lukou = join(programs, 'lukou');
+const environment = { ...process.env, LUKOU_SCENARIOS: join(root, 'launch_scripts', 'scenarios') };
+
+const URL_LINE = /https?:\/\/[\d.]+:\d+\/\S*/;
+
+class Process {
+  constructor(command, args, extra = {}) {
+    this.output = '';
+    this.child = spawn(command, args, { env: { ...environment, ...extra }, stdio: ['ignore', 'pipe', 'pipe'] });
+    for (const stream of [this.child.stdout, this.child.stderr]) {
+      stream.setEncoding('utf8');
+      stream.on('data', (text) => (this.output += text));
+    }
+    this.ended = new Promise((resolve) => this.child.on('exit', (code, signal) => resolve(code ?? signal)));
+  }
+
+  async end(signal = 'SIGINT') {
+    this.child.kill(signal);
+    const killer = setTimeout(() => this.child.kill('SIGKILL'), 15_000);
+    const code = await this.ended;
+    clearTimeout(killer);
+    return code;
+  }
+}
+
+/** Waits until `probe` gives something true, and gives it. */
+export async function until(probe, what, limitMs = 20_000) {
+  const end = Date.now() + limitMs;
+  for (;;) {
+    const found = await probe();
+    if (found) return found;
+    if (Date.now() > end) throw new Error(`${what}: not within ${limitMs / 1000} s`);
+    await new Promise((resolve) => setTimeout(resolve, 25));
+  }
+}
+
+/** A run with its console: `url` of the page, `id` of the run, `out` its results. */
+export async function startRun(args = [], scenario = 'paper') {
+  const folder = mkdtempSync(join(tmpdir(), 'lukou-browser-'));
+  const out = join(folder, 'result');
+  const process = new Process(lukou, ['run', scenario, '--console=0', '--out', out, ...args]);
+  try {
+    const url = await until(() => process.output.match(URL_LINE)?.[0], `address of the console in: ${process.output}`);
+    const id = await until(() => runIds().find((found) => process.output.includes(found)), 'id of the run');
+    return {
+      url,
+      id,
+      out,
+      process,
+      ctl: (...request) => execFileSync(lukou, ['ctl', id, ...request], { env: environment, encoding: 'utf8' }),
+      async end() {
+        const code = await process.end();
+        rmSync(folder, { recursive: true, force: true });
+        return code;
+      },
+    };
+  } catch (error) {
+    await process.end('SIGTERM');
+    throw new Error(`${error.message}\n${process.output}`);
+  }
+}
+
+function runIds() {
+  const listed = execFileSync(lukou, ['ctl', 'list'], { env: environment, encoding: 'utf8' });
+  return listed.split('\n').map((line) => line.split(/\s+/)[0]).filter((id) => id !== '');
+}
+
+/** A second console on a run. */
+export async function attach(id) {
+  const process = new Process(join(programs, 'lukou-console'), ['--attach', id, '--port', '0']);
+  const url = await until(() => process.output.match(URL_LINE)?.[0], `address of the console in: ${process.output}`);
+  return { url, end: () => process.end() };
+}
+
+/** Pid of the process of a run that has this role, found as the parent's child. */
+export function memberPid(run, program) {
+  const listed = execFileSync('ps', ['-o', 'pid=,args=', '--ppid', String(run.process.child.pid)], { encoding: 'utf8' });
+  const line = listed.split('\n').find((text) => text.includes(program));
+  if (line === undefined) throw new Error(`no ${program} among: ${listed}`);
+  return Number(line.trim().split(/\s+/)[0]);
+}
+
+export function launch() {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox'],
+  });
+}
+
+/** Opens the page and waits for its first picture. Errors of the page fail the test that looks at `errors`. */
+export async function openPage(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, locale: 'en', ...options });
+  const page = await context.newPage();
+  const errors = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => {
+    if (message.type() === 'error') errors.push(message.text());
+  });
+  const heard = listen(page);
+  await page.goto(url);
+  await page.locator('#picture[data-step]').waitFor({ timeout: 20_000 });
+  return { page, errors, heard, close: () => context.close() };
+}
+
+let schema;
+function toPage() {
+  if (schema === undefined) {
+    const folder = mkdtempSync(join(tmpdir(), 'lukou-proto-'));
+    const file = join(folder, 'console.binpb');
+    execFileSync('protoc', [`--descriptor_set_out=${file}`, `-I${join(root, 'idl')}`, 'console.proto']);
+    const { createFileRegistry, fromBinary } = require('@bufbuild/protobuf');
+    const { FileDescriptorSetSchema } = require('@bufbuild/protobuf/wkt');
+    const set = fromBinary(FileDescriptorSetSchema, require('node:fs').readFileSync(file));
+    schema = createFileRegistry(set).getMessage('lukou.console.ToPage');
+    rmSync(folder, { recursive: true });
+  }
+  return schema;
+}
+
+/** Collects what the server tells the page: the newest of each kind, and every event. */
+function listen(page) {
+  const { fromBinary } = require('@bufbuild/protobuf');
+  const heard = { pictures: [], events: [] };
+  page.on('websocket', (socket) => {
+    socket.on('framereceived', ({ payload }) => {
+      if (typeof payload === 'string') return;
+      const { what } = fromBinary(toPage(), payload);
+      heard[what.case] = what.value;
+      if (what.case === 'picture') heard.pictures.push(what.value);
+      if (what.case === 'event') heard.events.push(what.value);
+      if (heard.pictures.length > 50) heard.pictures.shift();
+    });
+  });
+  return heard;
+}
+
+/** The picture's step, as it is drawn. */
+export const stepOf = (page) => page.locator('#picture').getAttribute('data-step').then(Number);
+
+/** Serious and critical findings of axe-core, in short. */
+export async function axeFindings(page) {
+  await page.evaluate(axeSource);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+  return violations
+    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .map(({ id, impact, nodes }) => `${impact} ${id}: ${nodes.map((node) => node.html.slice(0, 120)).join(' | ')}`);
+}
