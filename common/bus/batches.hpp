@@ -52,6 +52,17 @@ struct RoadsideBatch {
   std::uint32_t frames_malformed = 0;   ///< heard, but not decodable: dropped
   std::uint32_t answers_malformed = 0;  ///< the algorithm's advice that no message can carry: refused, not sent
   ReceptionReport reception;            ///< uplink; empty under the ideal radio
+  std::uint32_t requests_refused = 0;   ///< requests for greens that nobody takes: the plan is fixed
+  std::uint32_t computing_ms = 0;       ///< delays whatever the algorithm answered in this step; 0 if its time is free
+};
+
+/// RSU to signal controller: the greens that it asks for at t_step. Only in a run with signals.actuation.
+struct RequestBatch {
+  std::uint32_t rsu = 0;
+  std::uint32_t epoch = 1;
+  Step step = 0;
+  std::vector<std::uint16_t> lanes;  ///< bit n = lane n in the order WL ... NR; no request or one
+  std::vector<Step> lifetime;        ///< steps from `step` on
 };
 
 /// Controller to engine and RSUs. The batch of controller step k promises the heads through step k + P.
@@ -62,6 +73,14 @@ struct SignalBatch {
   std::vector<std::uint8_t> change_lane;    ///< forecast: changes of the heads from `first` on under the running plan,
   std::vector<std::uint8_t> change_aspect;  ///<   by lane, then by time; at least three cycles ahead
   std::vector<Step> change_step;
+
+  // What became of the requests of RSUs, as the controller decided since its batch before; by step, then by RSU. A
+  // request that stays in force has a further row whenever its outcome changes.
+  std::vector<Step> request_step;   ///< of the controller that decided; its heads are those of request_step + P
+  std::vector<Step> request_asked;  ///< the RSU's step of the request; names it together with the RSU
+  std::vector<std::uint32_t> request_rsu;
+  std::vector<std::uint16_t> request_lanes;   ///< bit n = lane n
+  std::vector<std::uint8_t> request_outcome;  ///< RequestOutcome (common/intersection/actuation.hpp)
 };
 
 /// Where a car stands in the life of its lane; the values stand on the bus.
@@ -94,6 +113,15 @@ enum class AdviceFate : std::uint8_t {
   kLate = 22,             ///< refused: it came after its life had ended
 };
 inline constexpr std::size_t kAdviceFates = 23;
+
+/// What an advice asked for. The values stand on the bus.
+enum class AdviceKind : std::uint8_t {
+  kAcceleration = 0,  ///< an acceleration
+  kProfile = 1,       ///< accelerations one after the other
+  kSpeed = 2,         ///< a speed
+  kLaneSpeed = 3,     ///< a speed for everybody on the lane: one advice for each car that it is for
+};
+inline constexpr std::size_t kAdviceKinds = 4;
 
 /// Where a car stands with guidance. The values stand on the bus.
 enum class GuidanceState : std::uint8_t {
@@ -178,7 +206,14 @@ struct TrafficBatch {
   std::uint32_t guard_interventions = 0;   ///< cars that the guard braked in this step
   std::uint8_t overflow = 0;               ///< 1 = some car has waited outside longer than the scenario allows
   std::vector<std::uint32_t> heard_epoch;  ///< per RSU: the epoch heard in this step, 0 = silent
+  std::uint32_t requests_refused = 0;      ///< requests for greens of the RSUs in a run whose plan is fixed
   ReceptionReport reception;  ///< of the instant t_(step-1): what cars heard, then what RSUs said they heard
+
+  // Two more columns of the fates.
+  std::vector<std::uint8_t> fate_kind;  ///< AdviceKind
+  std::vector<double> fate_speed_mps;   ///< of the kinds that ask for a speed; else NaN
+
+  std::vector<std::uint32_t> computing_ms;  ///< per RSU: what delayed its answer of step - 1; 0 if it is silent
 
   void clear();
 };

@@ -289,6 +289,7 @@ std::set<Incarnation> Reader<Batch>::matched() const {
 
 template class Writer<AirBatch>;
 template class Writer<RoadsideBatch>;
+template class Writer<RequestBatch>;
 template class Writer<SignalBatch>;
 template class Writer<TrafficBatch>;
 template class Writer<Control>;
@@ -297,6 +298,7 @@ template class Writer<RunState>;
 template class Writer<View>;
 template class Reader<AirBatch>;
 template class Reader<RoadsideBatch>;
+template class Reader<RequestBatch>;
 template class Reader<SignalBatch>;
 template class Reader<TrafficBatch>;
 template class Reader<Control>;

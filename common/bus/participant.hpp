@@ -52,8 +52,8 @@ class Participant {
   std::unique_ptr<Entities> entities_;
 };
 
-/// Typed end of a topic. Batch types: AirBatch, RoadsideBatch, SignalBatch, TrafficBatch; streams: Control, Up,
-/// RunState, View. Lockstep topics are reliable with a writer history of 512 steps; readers keep all.
+/// Typed end of a topic. Batch types: AirBatch, RoadsideBatch, RequestBatch, SignalBatch, TrafficBatch; streams:
+/// Control, Up, RunState, View. Lockstep topics are reliable with a writer history of 512 steps; readers keep all.
 template <class Batch>
 class Writer {
  public:

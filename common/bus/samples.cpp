@@ -65,6 +65,14 @@ template <class Plain, class Sample, class Move>
 void signal_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.heads, sample.heads), move(plain.change_lane, sample.change_lane);
   move(plain.change_aspect, sample.change_aspect), move(plain.change_step, sample.change_step);
+  move(plain.request_step, sample.request_step), move(plain.request_asked, sample.request_asked);
+  move(plain.request_rsu, sample.request_rsu), move(plain.request_lanes, sample.request_lanes);
+  move(plain.request_outcome, sample.request_outcome);
+}
+
+template <class Plain, class Sample, class Move>
+void request_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.lanes, sample.lanes), move(plain.lifetime, sample.lifetime);
 }
 
 template <class Plain, class Sample, class Move>
@@ -86,6 +94,8 @@ void traffic_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.fate_sequence, sample.fate_sequence), move(plain.fate, sample.fate);
   move(plain.fate_again, sample.fate_again), move(plain.fate_issued, sample.fate_issued);
   move(plain.fate_commanded_mps2, sample.fate_commanded_mps2), move(plain.heard_epoch, sample.heard_epoch);
+  move(plain.fate_kind, sample.fate_kind), move(plain.fate_speed_mps, sample.fate_speed_mps);
+  move(plain.computing_ms, sample.computing_ms);
 }
 
 template <class Plain, class Sample, class Move>
@@ -135,8 +145,10 @@ void lend(const RoadsideBatch& batch, lukou_bus_Roadside& sample, Scratch&) {
   sample.frames_heard = batch.frames_heard;
   sample.frames_malformed = batch.frames_malformed;
   sample.answers_malformed = batch.answers_malformed;
+  sample.computing_ms = batch.computing_ms;
   frames_columns(batch.frames, sample.frames, kLend);
   reception_columns(batch.reception, sample.reception, kLend);
+  sample.requests_refused = batch.requests_refused;
 }
 
 void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch) {
@@ -146,8 +158,23 @@ void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch) {
   batch.frames_heard = sample.frames_heard;
   batch.frames_malformed = sample.frames_malformed;
   batch.answers_malformed = sample.answers_malformed;
+  batch.computing_ms = sample.computing_ms;
   frames_columns(batch.frames, sample.frames, kCopy);
   reception_columns(batch.reception, sample.reception, kCopy);
+  batch.requests_refused = sample.requests_refused;
+}
+
+void lend(const RequestBatch& batch, lukou_bus_Request& sample, Scratch&) {
+  sample.step = batch.step;
+  sample.rsu = batch.rsu;
+  request_columns(batch, sample, kLend);
+}
+
+void copy(const lukou_bus_Request& sample, RequestBatch& batch) {
+  batch.step = sample.step;
+  batch.rsu = sample.rsu;
+  batch.epoch = sample.epoch;
+  request_columns(batch, sample, kCopy);
 }
 
 void lend(const SignalBatch& batch, lukou_bus_Signal& sample, Scratch&) {
@@ -169,6 +196,7 @@ void lend(const TrafficBatch& batch, lukou_bus_Traffic& sample, Scratch&) {
   sample.overflow = batch.overflow;
   traffic_columns(batch, sample, kLend);
   reception_columns(batch.reception, sample.reception, kLend);
+  sample.requests_refused = batch.requests_refused;
 }
 
 void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch) {
@@ -178,6 +206,7 @@ void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch) {
   batch.overflow = sample.overflow;
   traffic_columns(batch, sample, kCopy);
   reception_columns(batch.reception, sample.reception, kCopy);
+  batch.requests_refused = sample.requests_refused;
 }
 
 void lend(const Control& message, lukou_bus_Control& sample, Scratch& scratch) {

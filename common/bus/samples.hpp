@@ -33,6 +33,7 @@ struct TopicOf;
 
 LUKOU_TOPIC(AirBatch, Air, "lukou/air", kLockstep)
 LUKOU_TOPIC(RoadsideBatch, Roadside, "lukou/roadside", kLockstep)
+LUKOU_TOPIC(RequestBatch, Request, "lukou/request", kLockstep)
 LUKOU_TOPIC(SignalBatch, Signal, "lukou/signal", kLockstep)
 LUKOU_TOPIC(TrafficBatch, Traffic, "lukou/traffic", kLockstep)
 LUKOU_TOPIC(Control, Control, "lukou/control", kStream)
@@ -48,6 +49,7 @@ struct Scratch {
 };
 void lend(const AirBatch& batch, lukou_bus_Air& sample, Scratch& scratch);
 void lend(const RoadsideBatch& batch, lukou_bus_Roadside& sample, Scratch& scratch);
+void lend(const RequestBatch& batch, lukou_bus_Request& sample, Scratch& scratch);
 void lend(const SignalBatch& batch, lukou_bus_Signal& sample, Scratch& scratch);
 void lend(const TrafficBatch& batch, lukou_bus_Traffic& sample, Scratch& scratch);
 void lend(const Control& message, lukou_bus_Control& sample, Scratch& scratch);
@@ -57,6 +59,7 @@ void lend(const View& message, lukou_bus_View& sample, Scratch& scratch);
 
 void copy(const lukou_bus_Air& sample, AirBatch& batch);
 void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch);
+void copy(const lukou_bus_Request& sample, RequestBatch& batch);
 void copy(const lukou_bus_Signal& sample, SignalBatch& batch);
 void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch);
 void copy(const lukou_bus_Control& sample, Control& message);

@@ -47,6 +47,27 @@ Conflict conflict(Lane a, Lane b) {
   return kMatrix[index(a)][index(b)];
 }
 
+LaneSet hard_conflicts(Lane lane) {
+  static const std::array<LaneSet, kLanes> kCrossing = [] {
+    std::array<LaneSet, kLanes> crossing;
+    for (const Lane a : kAllLanes) {
+      for (const Lane b : kAllLanes) {
+        if (conflict(a, b) == Conflict::kHard) crossing[index(a)].insert(b);
+      }
+    }
+    return crossing;
+  }();
+  return kCrossing[index(lane)];
+}
+
+LaneSet hard_conflicts(LaneSet lanes) {
+  LaneSet crossing;
+  for (const Lane lane : lanes) crossing = crossing | hard_conflicts(lane);
+  return crossing;
+}
+
+bool has_hard_conflict(LaneSet lanes) { return !(lanes & hard_conflicts(lanes)).empty(); }
+
 std::vector<PlanConflict> conflicts_of(const SignalPlan& plan) {
   std::vector<PlanConflict> found;
   for (int i = 0; i < kLanes; ++i) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/intersection/lane_set.hpp"
 #include "common/intersection/signal_plan.hpp"
 
 namespace lukou {
@@ -16,6 +17,13 @@ enum class Conflict : std::uint8_t {
 
 /// Follows from the geometry: two paths conflict if their centre lines come closer than a car's width (1.8 m).
 Conflict conflict(Lane a, Lane b);
+
+/// The lanes whose streams cross that of `lane`: Conflict::kHard.
+LaneSet hard_conflicts(Lane lane);
+/// The lanes that cross one of `lanes`.
+LaneSet hard_conflicts(LaneSet lanes);
+/// Whether two of `lanes` cross: they can never be green together.
+bool has_hard_conflict(LaneSet lanes);
 
 /// Two lanes that are not red at the same step.
 struct PlanConflict {

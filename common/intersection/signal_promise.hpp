@@ -20,6 +20,8 @@ class SignalPromise {
   [[nodiscard]] bool covers(Step step) const {
     return step >= first_ && step < first_ + static_cast<Step>(heads_.size());
   }
+  /// The step after the last promised one; 0 before the first batch.
+  [[nodiscard]] Step end() const { return first_ + static_cast<Step>(heads_.size()); }
   /// Forgets what lies before `step`.
   void forget_before(Step step);
 

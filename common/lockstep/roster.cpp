@@ -33,6 +33,7 @@ bool writes(std::string_view role, Topic topic) {
     case Topic::kSignal:
       return role == kControllerRole;
     case Topic::kRoadside:
+    case Topic::kRequest:
       return rsu_index(role) >= 0;
   }
   return false;
@@ -53,6 +54,8 @@ bool reads(std::string_view role, Topic topic) {
       return role == kEngineRole || is_rsu || role == kRecorderRole;
     case Topic::kRoadside:
       return role == kEngineRole;
+    case Topic::kRequest:
+      return role == kControllerRole;
   }
   return false;
 }

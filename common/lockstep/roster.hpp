@@ -8,7 +8,7 @@
 namespace lukou {
 
 /// Topics of the bus that members exchange; observers' topics are not part of the start barrier.
-enum class Topic : std::uint8_t { kControl, kUp, kTraffic, kAir, kSignal, kRoadside };
+enum class Topic : std::uint8_t { kControl, kUp, kTraffic, kAir, kSignal, kRoadside, kRequest };
 
 // Roles of a run's processes.
 inline constexpr std::string_view kClockRole = "clock";

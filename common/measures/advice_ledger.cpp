@@ -35,6 +35,7 @@ void AdviceLedger::add(const TrafficBatch& batch) {
 void AdviceLedger::add_fate(const TrafficBatch& batch, std::size_t row) {
   const auto fate = static_cast<AdviceFate>(batch.fate[row]);
   if (fate == AdviceFate::kDuplicate) return;  // no advice of its own
+  const auto kind = static_cast<AdviceKind>(batch.fate_kind[row]);
   const std::uint32_t vehicle = batch.fate_vehicle[row];
   if (batch.fate_again[row] != 0) {
     const auto used = used_.find(vehicle);
@@ -51,13 +52,16 @@ void AdviceLedger::add_fate(const TrafficBatch& batch, std::size_t row) {
                        .commanded_mps2 = batch.fate_commanded_mps2[row],
                        .fate = name(fate),
                        .first_used = {},
-                       .last_used = {}};
+                       .last_used = {},
+                       .kind = name(kind)};
   if (batch.fate_issued[row] >= 0) advice.issued = batch.fate_issued[row];
   if (const auto lane = lanes_.find(vehicle); lane != lanes_.end()) {
     advice.vehicle = vehicle;
     advice.lane = lane->second;
   }
-  if (!is_use(fate)) {
+  if (!std::isnan(batch.fate_speed_mps[row])) advice.speed_mps = batch.fate_speed_mps[row];
+  if (kind == AdviceKind::kLaneSpeed && is_use(fate)) advice.first_used = step_;
+  if (kind == AdviceKind::kLaneSpeed || !is_use(fate)) {
     settled_.push_back(advice);
     return;
   }

@@ -11,7 +11,7 @@
 namespace lukou {
 
 /// Follows every advice to its end. An advice that was never used has its fate at once; one that was used is settled
-/// when a newer one takes its place or its car drives without it.
+/// when a newer one takes its place or its car drives without it. A speed for the lane is settled at its first use.
 class AdviceLedger {
  public:
   /// Takes the next step's batch.

@@ -5,7 +5,9 @@
 #include <string_view>
 
 #include "common/core/step.hpp"
+#include "common/intersection/actuation.hpp"
 #include "common/intersection/lane.hpp"
+#include "common/intersection/lane_set.hpp"
 
 // What is measured of one car, one stop, one advice: rows of tables. docs/results.md defines each column.
 
@@ -49,10 +51,30 @@ struct SettledAdvice {
   std::uint32_t sequence = 0;
   std::optional<std::uint32_t> vehicle;  ///< empty: nobody on the road, as the next
   std::optional<Lane> lane;
-  double commanded_mps2 = 0.0;     ///< not a number: not decodable
+  double commanded_mps2 = 0.0;     ///< not a number: not decodable, or a speed that never became one
   std::string_view fate;           ///< name of an AdviceFate; text that lives for ever
   std::optional<Step> first_used;  ///< empty: never, as the next
   std::optional<Step> last_used;
+  std::string_view kind = "acceleration";  ///< name of an AdviceKind; text that lives for ever
+  std::optional<double> speed_mps{};       ///< that it asked for
 };
+
+/// A row of requests.csv: what an RSU asks of the signal controller, or what becomes of it, changed.
+struct RequestRow {
+  Step step = 0;  ///< of the controller
+  std::uint32_t rsu = 0;
+  LaneSet lanes;
+  RequestOutcome outcome = RequestOutcome::kAccepted;
+};
+
+/// A row of guidance.csv, too: an RSU computed longer than a step.
+struct MissedDeadline {
+  Step known = 0;     ///< when the engine heard the answer
+  Step answered = 0;  ///< the step that the RSU answered
+  std::uint32_t rsu = 0;
+  std::uint32_t took_ms = 0;
+};
+/// Stands in the place of a fate.
+inline constexpr std::string_view kDeadlineMissed = "deadline_missed";
 
 }  // namespace lukou

@@ -244,11 +244,12 @@ void RunMeasures::add_fates(const TrafficBatch& batch) {
   totals_.advice_sent += batch.answers_malformed;
   totals_.advice_by_fate[static_cast<std::size_t>(AdviceFate::kMalformed)] += batch.answers_malformed;
   for (std::size_t i = 0; i < batch.fate.size(); ++i) {
-    LUKOU_EXPECT(batch.fate[i] < kAdviceFates);
+    LUKOU_EXPECT(batch.fate[i] < kAdviceFates && batch.fate_kind[i] < kAdviceKinds);
     if (batch.fate_again[i] != 0) {
       --totals_.advice_by_fate[static_cast<std::size_t>(AdviceFate::kApplied)];
     } else if (batch.fate[i] != static_cast<std::uint8_t>(AdviceFate::kDuplicate)) {
       ++totals_.advice_sent;  // a duplicate is no advice of its own
+      if (batch.fate_issued[i] >= 0) ++totals_.advice_by_kind[batch.fate_kind[i]];
     }
     ++totals_.advice_by_fate[batch.fate[i]];
     if (!reached(static_cast<AdviceFate>(batch.fate[i]))) continue;

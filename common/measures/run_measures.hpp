@@ -91,6 +91,7 @@ struct RunFigures {
   std::uint64_t advice_sent = 0;  ///< advice whose fate is known
   std::array<std::uint64_t, kAdviceFates>
       advice_by_fate{};  ///< by AdviceFate; each advice once, by its last fate; duplicates on top
+  std::array<std::uint64_t, kAdviceKinds> advice_by_kind{};  ///< of those sent whose kind is known, by AdviceKind
   [[nodiscard]] std::uint64_t advice(AdviceFate fate) const { return advice_by_fate[static_cast<std::size_t>(fate)]; }
   std::uint64_t stops_total = 0;                            ///< of all cars, since step 0
   std::array<std::uint64_t, kStopCauses> stops_by_cause{};  ///< by StopCause

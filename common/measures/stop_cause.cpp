@@ -34,6 +34,9 @@ constexpr std::array<std::string_view, kAdviceFates> kFateNames = {"applied",
                                                                    "changed_driver",
                                                                    "late"};
 
+/// By AdviceKind.
+constexpr std::array<std::string_view, kAdviceKinds> kKindNames = {"acceleration", "profile", "speed", "lane_speed"};
+
 /// Whether the car stopped because of the one ahead.
 bool queued(const StopFacts& facts) {
   switch (facts.bound_by) {
@@ -124,6 +127,12 @@ std::string_view name(AdviceFate fate) {
   const auto place = static_cast<std::size_t>(fate);
   LUKOU_EXPECT(place < kFateNames.size());
   return kFateNames[place];
+}
+
+std::string_view name(AdviceKind kind) {
+  const auto place = static_cast<std::size_t>(kind);
+  LUKOU_EXPECT(place < kKindNames.size());
+  return kKindNames[place];
 }
 
 }  // namespace lukou

@@ -56,5 +56,6 @@ StopCause stop_cause(const StopFacts& facts);
 /// Names for tables: "in_force", "lost_burst", ... Require values that stand in their enum.
 std::string_view name(GuidanceState state);
 std::string_view name(AdviceFate fate);
+std::string_view name(AdviceKind kind);
 
 }  // namespace lukou

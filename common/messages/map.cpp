@@ -15,7 +15,6 @@ using wire::varint_key;
 
 constexpr std::uint32_t kHighestSpeedOfVehicles = 5;
 constexpr std::int64_t kWidthMax_cm = 32'767 / kLanesPerApproach;  // so that a link's width fits, too
-constexpr std::uint32_t kFirstNeighbour = 11;  // ids of the nodes in the west, south, east and north: 11 to 14
 
 // UPER in bytes of four links of three lanes: everything but the points, and one point more in each lane and link.
 constexpr std::uint32_t kHeadBytes = 354;

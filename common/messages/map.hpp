@@ -11,6 +11,9 @@
 
 namespace lukou {
 
+/// Ids of the nodes in the west, south, east and north from which our links come: 11 to 14.
+inline constexpr std::uint32_t kFirstNeighbour = 11;
+
 /// An approach lane as the MAP draws it: a straight line from its entrance to its stop line.
 struct MapLane {
   PlanePoint entrance;  ///< on the lane's centre line

@@ -70,6 +70,7 @@ Expected<std::string> Member::join() {
   }
   if (refused_) return *refused_;
   if (!scenario_) return Error{"run " + settings_.address.run, "ended before this process could join"};
+  joined_ = true;
   return *scenario_;
 }
 
@@ -80,7 +81,7 @@ void Member::poll() {
       end_ = MemberEnd{MemberEnd::Kind::kClockLost, std::string(kClockRole), "the clock is gone"};
     }
   });
-  if (roster_open_) check_roster();
+  if (roster_open_ && joined_) check_roster();
   if (stop_signal() != 0 && running()) {
     end_ = stop_signal() == clock_died_signal()
                ? MemberEnd{MemberEnd::Kind::kClockLost, std::string(kClockRole), "the clock is gone"}

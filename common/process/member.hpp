@@ -40,8 +40,8 @@ class Member {
 
   [[nodiscard]] bus::Participant& participant() { return *participant_; }
 
-  /// Declares an endpoint of this process, before join(): the start waits until it is matched with everybody on the
-  /// roster who faces it.
+  /// Declares an endpoint of this process, before join() or between join() and the first step: the start waits until it
+  /// is matched with everybody on the roster who faces it.
   template <class Endpoint>
   void faces(Topic topic, const Endpoint& endpoint, bool writer) {
     endpoints_.push_back({topic, writer, [&endpoint] { return endpoint.matched(); }});
@@ -116,6 +116,7 @@ class Member {
   std::map<Incarnation, std::string> roster_;
   std::uint32_t roster_version_ = 0;
   bool roster_open_ = false;
+  bool joined_ = false;  ///< every endpoint is declared: the roster may be answered
   Step progress_ = -1;
   std::string waiting_for_;
   double heartbeat_s_ = 0.0;

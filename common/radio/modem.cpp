@@ -240,7 +240,7 @@ Arrival Modem::arrival(std::uint64_t link, const Hop& hop) const {
   constexpr auto kStepLength_ms = static_cast<double>(kStep_ms);
   // A station generates its frames at a fixed phase before each instant: what has no latency is heard at the instant.
   const double latency = latency_ms(link, hop);
-  const double after_sent_ms = latency - stations_.phase_ms(hop.sender);
+  const double after_sent_ms = latency + hop.computing_ms - stations_.phase_ms(hop.sender);
   const auto steps = static_cast<Step>(std::ceil(after_sent_ms / kStepLength_ms));
   return {.due = hop.sent + std::max<Step>(steps, 0),
           .at_ms = static_cast<double>(hop.sent) * kStepLength_ms + after_sent_ms,

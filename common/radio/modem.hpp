@@ -30,6 +30,7 @@ struct Hop {
   std::uint32_t receiver_frames = 1;   ///< that the receiver itself sends in a step
   double car_speed_mps = 0.0;          ///< of the car
   double collision_probability = 0.0;  ///< of a reservation of the sender at the receiver
+  double computing_ms = 0.0;           ///< that the sender computed before it could generate the frame
 };
 
 /// Why a receiver does not hear a frame.
@@ -47,7 +48,7 @@ enum class LossCause : std::uint8_t {
 struct Arrival {
   Step due = 0;             ///< the first step whose instant is not before the arrival
   double at_ms = 0.0;       ///< simulated time
-  double latency_ms = 0.0;  ///< since the frame was generated
+  double latency_ms = 0.0;  ///< since the frame was generated, computing before that not included
 };
 
 /// What becomes of a frame at one receiver.

@@ -13,7 +13,46 @@ std::string stops_columns() {
   return "step,time_s,vehicle,lane,equipped,began_step,began_s,distance_m,stood_s,cause,guidance,missed";
 }
 std::string guidance_columns() {
-  return "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step";
+  return "step,time_s,issued_step,issued_s,rsu,sequence,vehicle,lane,commanded_mps2,fate,age_s,last_step,kind,"
+         "commanded_speed_mps";
+}
+std::string requests_columns() { return "step,time_s,rsu,lanes,outcome,rule"; }
+
+std::string_view name_of(RequestOutcome outcome) {
+  switch (outcome) {
+    case RequestOutcome::kAccepted:
+      return "accepted";
+    case RequestOutcome::kMinGreen:
+      return "deferred";
+    case RequestOutcome::kMaxWait:
+      return "overruled";
+    case RequestOutcome::kConflict:
+    case RequestOutcome::kMalformed:
+    case RequestOutcome::kOtherRsu:
+      return "refused";
+    case RequestOutcome::kEnded:
+      return "ended";
+  }
+  return "";
+}
+
+std::string_view rule_of(RequestOutcome outcome) {
+  switch (outcome) {
+    case RequestOutcome::kMinGreen:
+      return "min_green";
+    case RequestOutcome::kMaxWait:
+      return "max_wait";
+    case RequestOutcome::kConflict:
+      return "conflict";
+    case RequestOutcome::kMalformed:
+      return "malformed";
+    case RequestOutcome::kOtherRsu:
+      return "other_rsu";
+    case RequestOutcome::kAccepted:
+    case RequestOutcome::kEnded:
+      break;
+  }
+  return "";
 }
 
 Expected<EventTables> EventTables::create(const std::filesystem::path& folder, const Asked& asked) {
@@ -27,6 +66,11 @@ Expected<EventTables> EventTables::create(const std::filesystem::path& folder, c
     auto guidance = TableWriter::create(folder / kGuidanceTable, guidance_columns());
     if (!guidance) return guidance.error();
     tables.guidance_.emplace(std::move(guidance).value());
+  }
+  if (asked.requests) {
+    auto requests = TableWriter::create(folder / kRequestsTable, requests_columns());
+    if (!requests) return requests.error();
+    tables.requests_.emplace(std::move(requests).value());
   }
   return tables;
 }
@@ -64,11 +108,43 @@ void EventTables::add(const SettledAdvice& row) {
   // Advice that is used in step k acts from t(k-1) on.
   row.first_used&& row.issued ? table.tenths(*row.first_used - 1 - *row.issued) : table.name("");
   whole_or_empty(table, row.last_used);
+  table.name(row.kind);
+  row.speed_mps ? table.real(*row.speed_mps) : table.name("");
+  table.end_row();
+}
+
+void EventTables::add(const RequestRow& row) {
+  if (!requests_) return;
+  requests_->whole(row.step);
+  requests_->tenths(row.step);
+  requests_->count(row.rsu);
+  std::string lanes;
+  for (const Lane lane : row.lanes) lanes += (lanes.empty() ? "" : " ") + std::string(name(lane));
+  requests_->name(lanes);
+  requests_->name(name_of(row.outcome));
+  requests_->name(rule_of(row.outcome));
+  requests_->end_row();
+}
+
+void EventTables::add(const MissedDeadline& row) {
+  if (!guidance_) return;
+  TableWriter& table = *guidance_;
+  table.whole(row.known);
+  table.tenths(row.known);
+  table.whole(row.answered);
+  table.tenths(row.answered);
+  table.count(row.rsu);
+  for (int empty = 0; empty < 4; ++empty) table.name("");  // no frame, no car, no command
+  table.name(kDeadlineMissed);
+  table.real(static_cast<double>(row.took_ms) / 1e3);
+  table.name("");
+  table.name("");
+  table.name("");
   table.end_row();
 }
 
 Expected<Done> EventTables::flush() {
-  for (std::optional<TableWriter>* table : {&stops_, &guidance_}) {
+  for (std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_}) {
     if (!*table) continue;
     if (auto flushed = (*table)->flush(); !flushed) return flushed;
   }
@@ -76,7 +152,7 @@ Expected<Done> EventTables::flush() {
 }
 
 Expected<Done> EventTables::sync() {
-  for (std::optional<TableWriter>* table : {&stops_, &guidance_}) {
+  for (std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_}) {
     if (!*table) continue;
     if (auto synced = (*table)->sync(); !synced) return synced;
   }
@@ -84,12 +160,17 @@ Expected<Done> EventTables::sync() {
 }
 
 std::size_t EventTables::buffered_bytes() const {
-  return (stops_ ? stops_->buffered_bytes() : 0) + (guidance_ ? guidance_->buffered_bytes() : 0);
+  std::size_t bytes = 0;
+  for (const std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_}) {
+    if (*table) bytes += (*table)->buffered_bytes();
+  }
+  return bytes;
 }
 
 std::vector<FileEntry> EventTables::entries() const {
   std::vector<FileEntry> entries;
   if (guidance_) entries.push_back({kGuidanceTable, guidance_->sha256(), guidance_->rows_flushed()});
+  if (requests_) entries.push_back({kRequestsTable, requests_->sha256(), requests_->rows_flushed()});
   if (stops_) entries.push_back({kStopsTable, stops_->sha256(), stops_->rows_flushed()});
   return entries;
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/core/expected.hpp"
@@ -14,10 +15,17 @@ namespace lukou::results {
 
 inline constexpr const char* kStopsTable = "stops.csv";
 inline constexpr const char* kGuidanceTable = "guidance.csv";
+inline constexpr const char* kRequestsTable = "requests.csv";
 
 /// Header lines.
 std::string stops_columns();
 std::string guidance_columns();
+std::string requests_columns();
+
+/// "accepted", "deferred", "overruled", "refused" or "ended".
+std::string_view name_of(RequestOutcome outcome);
+/// The rule that deferred, overruled or refused: "min_green", ...; otherwise empty.
+std::string_view rule_of(RequestOutcome outcome);
 
 /// The tables that hold a row per event, as far as the scenario asks for them. Rows come in the order of the steps in
 /// which they were complete: of a stop its end, of an advice its final fate.
@@ -26,12 +34,15 @@ class EventTables {
   struct Asked {
     bool stops = false;
     bool guidance = false;
+    bool requests = false;
   };
   static Expected<EventTables> create(const std::filesystem::path& folder, const Asked& asked);
 
   /// Rows for a table that was not asked for are dropped.
   void add(const FinishedStop& row);
   void add(const SettledAdvice& row);
+  void add(const RequestRow& row);
+  void add(const MissedDeadline& row);
 
   Expected<Done> flush();
   Expected<Done> sync();
@@ -44,6 +55,7 @@ class EventTables {
 
   std::optional<TableWriter> stops_;
   std::optional<TableWriter> guidance_;
+  std::optional<TableWriter> requests_;
 };
 
 }  // namespace lukou::results

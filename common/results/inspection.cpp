@@ -97,8 +97,9 @@ class Inspector {
 
   /// Tables that the scenario may leave out: their rows come in the order of their steps, none beyond the last one.
   void event_tables() {
-    for (const auto& [name, columns] :
-         {std::pair(kGuidanceTable, guidance_columns()), {kStopsTable, stops_columns()}}) {
+    for (const auto& [name, columns] : {std::pair(kGuidanceTable, guidance_columns()),
+                                        {kRequestsTable, requests_columns()},
+                                        {kStopsTable, stops_columns()}}) {
       std::error_code code;
       if (!fs::is_regular_file(folder_ / name, code)) continue;
       Step before = 0;

@@ -109,7 +109,9 @@ Expected<Manifest> repair(const fs::path& folder, const Manifest& facts) {
   }
   const auto cars = with_columns(folder / kCarTable, car_columns());
   if (!cars) return cars.error();
-  for (const auto& [name, columns] : {std::pair(kStopsTable, stops_columns()), {kGuidanceTable, guidance_columns()}}) {
+  for (const auto& [name, columns] : {std::pair(kStopsTable, stops_columns()),
+                                      {kGuidanceTable, guidance_columns()},
+                                      {kRequestsTable, requests_columns()}}) {
     if (!fs::is_regular_file(folder / name, code)) continue;  // the scenario did not ask for it
     if (auto named = with_columns(folder / name, columns); !named) return named.error();
   }

@@ -27,6 +27,8 @@ class Checker {
     compliance();
     links();
     sensors();
+    actuation();
+    computing();
     for (Finding& finding : plan_findings(scenario_)) findings_.push_back(std::move(finding));
     return std::move(findings_);
   }
@@ -175,6 +177,27 @@ class Checker {
     }
   }
 
+  void computing() {
+    for (int r = 0; r < scenario_.rsus_size(); ++r) {
+      const Computing& said = scenario_.rsus(r).computing();
+      const FieldPath path = extended(extended(FieldPath{}, "rsus", r), "computing");
+      const bool declared = said.mode() == Computing::DECLARED;
+      if (said.mode() == Computing::REAL && scenario_.signals().has_actuation()) {
+        add(extended(path, "mode"),
+            "is REAL, must be FREE or DECLARED in a run with signals.actuation: the measured delay of a request is not "
+            "recorded",
+            {path_to({"signals", "actuation"})});
+      }
+      if (declared && !said.has_declared_ms()) {
+        add(extended(path, "mode"), "is DECLARED, but declared_ms is missing; it takes a number within [1, 5000] ms");
+      } else if (!declared && said.has_declared_ms()) {
+        add(extended(path, "declared_ms"),
+            "is read with mode: DECLARED alone; mode is " + Computing::Mode_Name(said.mode()),
+            {extended(path, "mode")});
+      }
+    }
+  }
+
   void sensor(const Sensor& said, const FieldPath& path) {
     const std::string given = "is " + number_text(said.to_m()) + " m, must be ";
     if (said.to_m() <= said.from_m()) {
@@ -185,6 +208,30 @@ class Checker {
     if (said.to_m() > approach_m) {
       add(extended(path, "to_m"), given + "at most traffic.approach_length_m, " + number_text(approach_m) + " m",
           {path_to({"traffic", "approach_length_m"})});
+    }
+  }
+
+  void actuation() {
+    if (!scenario_.signals().has_actuation()) return;
+    const Actuation& said = scenario_.signals().actuation();
+    const FieldPath path = path_to({"signals", "actuation"});
+    const double clearance_s = said.min_green_s() + said.yellow_s() + said.all_red_s();
+    if (said.max_wait_s() < clearance_s) {
+      add(extended(path, "max_wait_s"),
+          "is " + number_text(said.max_wait_s()) + " s, must be at least min_green_s + yellow_s + all_red_s, " +
+              number_text(clearance_s) + " s",
+          {extended(path, "min_green_s")});
+    }
+    if (scenario_.signals().allow_conflicts()) {
+      add(path, "keeps crossing streams apart; take it away, or signals.allow_conflicts",
+          {path_to({"signals", "allow_conflicts"})});
+    }
+    if (scenario_.run().on_rsu_loss() != RsuLoss::ABORT) {
+      add(path_to({"run", "on_rsu_loss"}),
+          "is " + RsuLoss::Policy_Name(scenario_.run().on_rsu_loss()) +
+              ", must be ABORT in a run with signals.actuation: when the controller stopped hearing an RSU is not "
+              "recorded",
+          {path});
     }
   }
 

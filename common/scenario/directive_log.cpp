@@ -43,6 +43,8 @@ Expected<DirectiveLog> load_directives(const std::filesystem::path& file) {
   for (const auto& hearing : record.hearings())
     log.hearings.push_back({hearing.rsu(), hearing.from_step(), hearing.epoch()});
   if (record.has_stop_step()) log.stop = record.stop_step();
+  for (const auto& computed : record.computed())
+    log.computed.push_back({computed.rsu(), computed.step(), computed.delay_ms()});
   return log;
 }
 
@@ -60,6 +62,12 @@ std::string text(const DirectiveLog& log) {
     hearing->set_epoch(heard.epoch);
   }
   if (log.stop) record.set_stop_step(*log.stop);
+  for (const ComputingDelay& delay : log.computed) {
+    auto* computed = record.add_computed();
+    computed->set_rsu(delay.rsu);
+    computed->set_step(delay.step);
+    computed->set_delay_ms(delay.delay_ms);
+  }
   std::string printed;
   TextFormat::PrintToString(record, &printed);
   return printed;

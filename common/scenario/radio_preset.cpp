@@ -58,7 +58,8 @@ bool is_latency_arm(const FieldDescriptor* field) {
 
 bool may_be_absent(const FieldDescriptor* field) {
   return field == Outage::descriptor()->FindFieldByName("rsu") ||
-         field == Radio::descriptor()->FindFieldByName("awareness_m");
+         field == Radio::descriptor()->FindFieldByName("awareness_m") ||
+         field == Computing::descriptor()->FindFieldByName("declared_ms");
 }
 
 void apply_radio_preset(Radio& radio) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,10 @@ struct Protocol {
   Step end = 0;             ///< last step
   Step signal_promise = 0;  ///< steps
   std::uint32_t rsus = 0;
-  std::string on_rsu_loss;  ///< "ABORT", "CONTINUE" or "WAIT"
+  std::string on_rsu_loss;           ///< "ABORT", "CONTINUE" or "WAIT"
+  std::vector<bool> rsu_measured{};  ///< by RSU: its computing time is measured and acts; two runs may differ then
+
+  [[nodiscard]] bool measures_time() const { return std::ranges::find(rsu_measured, true) != rsu_measured.end(); }
 };
 Protocol protocol(const Resolved& scenario);
 inline Step signal_promise(const Resolved& scenario) { return protocol(scenario).signal_promise; }

@@ -57,6 +57,10 @@ bool on_step_grid(const FieldDescriptor* field) {
       SignalPlan::descriptor()->FindFieldByName("cycle_s"),
       SignalPlan::descriptor()->FindFieldByName("offset_s"),
       TimedAspect::descriptor()->FindFieldByName("duration_s"),
+      Actuation::descriptor()->FindFieldByName("min_green_s"),
+      Actuation::descriptor()->FindFieldByName("yellow_s"),
+      Actuation::descriptor()->FindFieldByName("all_red_s"),
+      Actuation::descriptor()->FindFieldByName("max_wait_s"),
       Outage::descriptor()->FindFieldByName("from_s"),
       Outage::descriptor()->FindFieldByName("to_s"),
   };

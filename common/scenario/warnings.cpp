@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/intersection/conflicts.hpp"
+#include "common/scenario/actuation.hpp"
 #include "common/scenario/arrivals.hpp"
 #include "common/scenario/plan.hpp"
 #include "common/scenario/scenario.hpp"
@@ -60,6 +61,25 @@ void warn_of_conflicts(const Scenario& scenario, const lukou::SignalPlan& plan, 
   }
 }
 
+/// The plan stands in for requests; its own reds should not be what the maximum wait is for.
+void warn_of_long_reds(const Scenario& scenario, const lukou::SignalPlan& plan, std::vector<std::string>& warnings) {
+  const auto actuation = scenario::actuation(scenario);
+  if (!actuation) return;
+  std::vector<std::string> lanes;
+  for (const Lane lane : kAllLanes) {
+    Step red = 0;
+    Step longest = 0;
+    for (Step at = 0; at < 2 * plan.cycle; ++at) {
+      red = aspect_at(plan, lane, at) == lukou::Aspect::kGreen ? 0 : red + 1;
+      longest = std::max(longest, red);
+    }
+    if (longest + actuation->all_red > actuation->max_wait) lanes.emplace_back(name(lane));
+  }
+  if (lanes.empty()) return;
+  warnings.push_back("signals.actuation.max_wait_s: the plan itself keeps " + joined(lanes, ", ") +
+                     " red for longer than the maximum wait, which then comes before the plan");
+}
+
 /// An RSU does not know that two of its sensors see the same car.
 void warn_of_overlapping_sensors(const Scenario& scenario, std::vector<std::string>& warnings) {
   for (int r = 0; r < scenario.rsus_size(); ++r) {
@@ -103,6 +123,7 @@ std::vector<std::string> warnings(const Resolved& resolved) {
   std::vector<std::string> warnings;
   warn_of_demand(scenario, plan, warnings);
   warn_of_conflicts(scenario, plan, warnings);
+  warn_of_long_reds(scenario, plan, warnings);
   warn_of_overlapping_sensors(scenario, warnings);
   const double duration_s = scenario.run().duration_s();
   if (scenario.run().warmup_s() >= duration_s) {

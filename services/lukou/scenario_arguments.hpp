@@ -17,13 +17,16 @@ struct ScenarioArguments {
   std::vector<std::string> sets;
   std::string duration;
   std::string seed;
-  std::string rsu_algorithm;
+  std::vector<std::string> rsu_algorithms;    ///< "NAME" for RSU 0, or "N=NAME"
+  std::vector<std::string> rsu_times;         ///< "free" and so on for all RSUs, or "N=free"
+  std::vector<std::uint32_t> rsus_of_a_user;  ///< that get a program of their own
 };
 
 void add_scenario_arguments(CLI::App& verb, ScenarioArguments& arguments);
 
-/// The file, then --set in order, then the short forms --duration, --seed and --rsu-algorithm; checked as far as a run
-/// needs it (the RSUs' algorithms too).
+/// The file, then --set in order, then the short forms --duration, --seed, --rsu-algorithm and --rsu-time; checked as
+/// far as a run needs it (the RSUs' algorithms too). An RSU with a program of its own that the scenario does not have
+/// is added if its number is the next one.
 Expected<scenario::Resolved> load(const ScenarioArguments& arguments);
 
 /// Prints the errors, one a line, and returns the exit code for a usage or scenario error.

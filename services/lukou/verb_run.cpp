@@ -6,10 +6,12 @@
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
 #include "common/scenario/directive_log.hpp"
+#include "common/scenario/scenario_steps.hpp"
 #include "services/lukou/launch/console_process.hpp"
 #include "services/lukou/launch/run_request.hpp"
 #include "services/lukou/report/progress.hpp"
 #include "services/lukou/report/summary_text.hpp"
+#include "services/lukou/rsu_option.hpp"
 #include "services/lukou/scenario_arguments.hpp"
 #include "services/lukou/verbs.hpp"
 
@@ -21,7 +23,7 @@ struct RunArguments {
   std::string mode = "processes";
   std::string pace = "max";
   std::string out;
-  std::string rsu;
+  std::vector<std::string> rsus;  ///< "COMMAND" for all RSUs, or "N=COMMAND"
   std::string replay;
   std::string stall_limit;
   std::string run_id;
@@ -39,6 +41,12 @@ Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved sc
   if (!log.value().hearings.empty() && arguments.mode != "in-process") {
     return Error{arguments.replay, "an RSU was lost in this session; only --mode in-process replays that"};
   }
+  const auto measured = scenario::protocol(scenario).rsu_measured;
+  for (const ComputingDelay& delay : log.value().computed) {
+    if (delay.rsu < measured.size() && measured[delay.rsu]) continue;
+    return Error{arguments.replay, "holds measured computing times of RSU " + std::to_string(delay.rsu) +
+                                       "; replay it with --rsu-time real for that RSU"};
+  }
   for (const Directive& directive : log.value().sets) {
     const auto changed = scenario::change(scenario, directive.set);
     if (!changed) return Error{arguments.replay + ": step " + std::to_string(directive.step), changed.error().text()};
@@ -47,7 +55,7 @@ Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved sc
 }
 
 /// One run as the arguments ask for it. `console`: shows it; may be null.
-launch::RunReport run_once(const RunArguments& arguments, scenario::Resolved scenario,
+launch::RunReport run_once(const RunArguments& arguments, scenario::Resolved scenario, const RsuOptions& rsus,
                            launch::ConsoleProcess* console) {
   const launch::RunRequest request{
       .scenario = std::move(scenario),
@@ -56,7 +64,8 @@ launch::RunReport run_once(const RunArguments& arguments, scenario::Resolved sce
       .in_process = arguments.mode == "in-process",
       .pace = arguments.pace,
       .out = arguments.out,
-      .rsu = arguments.rsu,
+      .rsu = rsus.all,
+      .rsu_of = rsus.of,
       .start_paused = arguments.wait,
       .watchdog = !arguments.no_watchdog,
       .stall_limit_s = arguments.stall_limit,
@@ -95,13 +104,13 @@ std::optional<std::uint64_t> linger(launch::ConsoleProcess& console) {
 }
 
 /// Runs under a console: again with another seed and a result folder of its own as often as a viewer asks.
-int run_with_console(RunArguments arguments, scenario::Resolved scenario) {
+int run_with_console(RunArguments arguments, scenario::Resolved scenario, const RsuOptions& rsus) {
   auto started = launch::ConsoleProcess::start(static_cast<std::uint16_t>(arguments.console));
   if (!started) return report_errors(started.error());
   launch::ConsoleProcess& console = started.value();
   const std::string out = arguments.out;
   for (int runs = 1;; ++runs) {
-    const launch::RunReport report = run_once(arguments, scenario, &console);
+    const launch::RunReport report = run_once(arguments, scenario, rsus, &console);
     auto seed = report.restart;
     if (!seed) seed = linger(console);
     if (!seed || process::stop_signal() != 0) {
@@ -117,7 +126,10 @@ int run_with_console(RunArguments arguments, scenario::Resolved scenario) {
   }
 }
 
-int run(const RunArguments& arguments) {
+int run(RunArguments arguments) {
+  const auto rsus = rsu_options("--rsu", arguments.rsus);
+  if (!rsus) return report_errors(rsus.error());
+  for (const auto& [rsu, command] : rsus.value().of) arguments.scenario.rsus_of_a_user.push_back(rsu);
   auto scenario = load(arguments.scenario);
   if (!scenario) return report_errors(scenario.error());
   if (const auto pace = pace_of(arguments.pace); !pace) return report_errors(pace.error());
@@ -126,13 +138,13 @@ int run(const RunArguments& arguments) {
   }
   if (!arguments.quiet)
     for (const std::string& warning : scenario::warnings(scenario.value())) process::log_warning(warning);
-  if (arguments.mode == "in-process" && (!arguments.rsu.empty() || arguments.wait || arguments.console != 0)) {
+  if (arguments.mode == "in-process" && (!arguments.rsus.empty() || arguments.wait || arguments.console != 0)) {
     return report_errors(
         {"--mode in-process", "takes neither --rsu nor --wait nor --console: there are no processes to talk to"});
   }
   process::catch_stop_signals();
-  if (arguments.console != 0) return run_with_console(arguments, std::move(scenario).value());
-  return run_once(arguments, std::move(scenario).value(), nullptr).exit_code;
+  if (arguments.console != 0) return run_with_console(arguments, std::move(scenario).value(), rsus.value());
+  return run_once(arguments, std::move(scenario).value(), rsus.value(), nullptr).exit_code;
 }
 
 }  // namespace
@@ -147,7 +159,12 @@ Action add_run(CLI::App& app) {
   verb->add_option("--pace", arguments->pace, "max, very-slow, slow, medium, fast, or simulated seconds per second")
       ->capture_default_str();
   verb->add_option("--out", arguments->out, "result folder: must not exist, or be empty [result/<time>-<pace>]");
-  verb->add_option("--rsu", arguments->rsu, "command that is the RSU, or `wait`: started by hand");
+  // One word each, as --set.
+  verb->add_option("--rsu", arguments->rsus,
+                   "command that is the RSU, or `wait`: started by hand; of all RSUs, or of RSU N; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->type_name("[N=]COMMAND");
   verb->add_option("--replay-directives", arguments->replay, "directives.textproto of an earlier run");
   verb->add_option("--stall-limit", arguments->stall_limit, "wall seconds without progress that abort the run [30]")
       ->check(CLI::PositiveNumber);

@@ -15,6 +15,7 @@
 #include "common/process/run_list.hpp"
 #include "common/results/inspection.hpp"
 #include "common/results/result_folder.hpp"
+#include "common/scenario/scenario_steps.hpp"
 #include "services/lukou/launch/child.hpp"
 #include "services/lukou/launch/domain_claim.hpp"
 #include "services/lukou/scenario_arguments.hpp"
@@ -166,6 +167,12 @@ struct VerifyArguments {
 int verify(const VerifyArguments& arguments) {
   const auto scenario = load(arguments.scenario);
   if (!scenario) return report_errors(scenario.error());
+  if (scenario::protocol(scenario.value()).measures_time()) {
+    return report_errors(
+        {"rsus[].computing.mode",
+         "is REAL: results depend on how fast this computer is, so two runs differ; verify with FREE or "
+         "DECLARED (--rsu-time declared:20ms), or replay a run with --replay-directives"});
+  }
   std::string pattern = (fs::temp_directory_path() / "lukou-verify-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) return report_errors({pattern, "cannot be made"});
   const fs::path folder = pattern;

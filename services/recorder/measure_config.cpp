@@ -20,8 +20,10 @@ RecorderConfig recorder_config(const scenario::Resolved& scenario) {
   config.stop_on_overflow = s.run().on_overflow() == scenario::Overflow::STOP;
   config.record_stops = s.record().stops();
   config.record_guidance = s.record().guidance();
+  config.actuated = s.signals().has_actuation();
   config.seed = protocol.seed;
   config.end = protocol.end;
+  config.rsu_measured = protocol.rsu_measured;
   return config;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "common/measures/run_measures.hpp"
 #include "common/scenario/scenario.hpp"
 
@@ -11,8 +13,10 @@ struct RecorderConfig {
   bool stop_on_overflow = true;
   bool record_stops = true;
   bool record_guidance = false;
+  bool actuated = false;  ///< the controller hears requests for greens
   std::uint64_t seed = 0;
   Step end = 0;
+  std::vector<bool> rsu_measured;  ///< by RSU: its computing time is measured
 };
 RecorderConfig recorder_config(const scenario::Resolved& scenario);
 

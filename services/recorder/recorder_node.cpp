@@ -69,8 +69,8 @@ Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, 
   auto tables = results::RunTables::create(folder);
   if (!tables) return tables.error();
   const RecorderConfig config = recorder_config(scenario);
-  auto events =
-      results::EventTables::create(folder, {.stops = config.record_stops, .guidance = config.record_guidance});
+  auto events = results::EventTables::create(
+      folder, {.stops = config.record_stops, .guidance = config.record_guidance, .requests = config.actuated});
   if (!events) return events.error();
   return RecorderNode(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
                       std::move(events).value());
@@ -94,11 +94,17 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
   if (new_signal != nullptr && !promise_.extend(new_signal->first, new_signal->heads)) {
     return Error{"topic lukou/signal", "the batch of step " + std::to_string(new_signal->step) + " leaves a gap"};
   }
-  if (new_signal != nullptr) heads_.take(*new_signal);
+  if (new_signal != nullptr) {
+    heads_.take(*new_signal);
+    if (auto done = requests_.add(*new_signal); !done) return done;
+    for (const RequestRow& row : requests_.rows()) events_.add(row);
+  }
+  requests_.add_fixed_plan(traffic.requests_refused);
   promise_.forget_before(traffic.step);
   step_ = traffic.step;
   measures_.add(traffic);
   note_hearing(traffic);
+  note_computing(traffic);
   for (const FinishedCar& car : measures_.finished()) tables_.add_car(car);
   add_events(traffic);
   if (step_ > 0) add_rows();
@@ -168,6 +174,18 @@ void RecorderNode::note_hearing(const TrafficBatch& traffic) {
   }
 }
 
+void RecorderNode::note_computing(const TrafficBatch& traffic) {
+  for (std::uint32_t rsu = 0; rsu < traffic.computing_ms.size(); ++rsu) {
+    const std::uint32_t took_ms = traffic.computing_ms[rsu];
+    if (took_ms == 0 || rsu >= config_.rsu_measured.size() || !config_.rsu_measured[rsu]) continue;
+    const Step answered = step_ - 1;
+    log_.computed.push_back({rsu, answered, took_ms});
+    if (took_ms <= kStep_ms) continue;
+    ++deadline_misses_;
+    if (config_.record_guidance) events_.add(MissedDeadline{step_, answered, rsu, took_ms});
+  }
+}
+
 void RecorderNode::look_for_anomaly(const TrafficBatch& traffic) {
   if (anomaly_) return;
   if (measures_.collisions() > 0) {
@@ -197,8 +215,12 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   if (auto done = radio_.sync(); !done) return done;
   if (auto done = events_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
+  std::optional<RequestFigures> requests;
+  if (config_.actuated || requests_.figures().asked > 0) requests = requests_.figures();
+  std::optional<std::uint64_t> misses;
+  if (std::ranges::find(config_.rsu_measured, true) != config_.rsu_measured.end()) misses = deadline_misses_;
   const std::string summary =
-      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any());
+      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any(), requests, misses);
   const std::string directives = scenario::text(log_);
   if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
   if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;

@@ -11,6 +11,7 @@
 #include "common/lockstep/messages.hpp"
 #include "common/measures/advice_ledger.hpp"
 #include "common/measures/reception_measures.hpp"
+#include "common/measures/request_ledger.hpp"
 #include "common/results/event_tables.hpp"
 #include "common/results/radio_table.hpp"
 #include "common/results/tables.hpp"
@@ -51,6 +52,8 @@ class RecorderNode {
   /// Rows of radio.csv for the second that ends now.
   Expected<Done> add_radio_rows();
   void note_hearing(const TrafficBatch& traffic);
+  /// Measured computing times, and the deadlines that they missed.
+  void note_computing(const TrafficBatch& traffic);
   void look_for_anomaly(const TrafficBatch& traffic);
 
   RecorderConfig config_;
@@ -62,11 +65,13 @@ class RecorderNode {
   RunMeasures measures_;
   AdviceLedger ledger_;
   ReceptionMeasures reception_;
+  RequestLedger requests_;
   std::vector<ReceptionFigures> last_second_;  ///< the newest rows of radio.csv
   Step radio_rows_to_ = 0;                     ///< their step
   SignalPromise promise_;
   HeadForecast heads_;
   scenario::DirectiveLog log_;
+  std::uint64_t deadline_misses_ = 0;
   std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last
   TrafficBatch picture_;                    ///< the newest step
   std::optional<std::string> anomaly_;

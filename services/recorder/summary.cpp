@@ -59,9 +59,23 @@ Json fates_json(const RunFigures& figures, const std::pair<AdviceFate, const cha
   return json;
 }
 
+Json requests_json(const RequestFigures& requests) {
+  return {{"requests", requests.asked},
+          {"requests_accepted", requests.followed},
+          {"requests_deferred", {{"min_green", requests.count(RequestOutcome::kMinGreen)}}},
+          {"requests_overruled", {{"max_wait", requests.count(RequestOutcome::kMaxWait)}}},
+          {"requests_refused",
+           {{"total", requests.refused()},
+            {"conflict", requests.count(RequestOutcome::kConflict)},
+            {"malformed", requests.count(RequestOutcome::kMalformed)},
+            {"other_rsu", requests.count(RequestOutcome::kOtherRsu)},
+            {"fixed_plan", requests.fixed_plan}}}};
+}
+
 }  // namespace
 
-std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled) {
+std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
+                         const std::optional<RequestFigures>& requests, std::optional<std::uint64_t> deadline_misses) {
   Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
@@ -71,6 +85,12 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
     json["stops_by_cause"][std::string(kStopCauseNames[cause])] = figures.stops_by_cause[cause];
   }
   json["advice_sent"] = figures.advice_sent;
+  const auto of_kind = [&](AdviceKind kind) { return figures.advice_by_kind[static_cast<std::size_t>(kind)]; };
+  const std::uint64_t others =
+      of_kind(AdviceKind::kProfile) + of_kind(AdviceKind::kSpeed) + of_kind(AdviceKind::kLaneSpeed);
+  for (std::size_t kind = 0; others > 0 && kind < kAdviceKinds; ++kind) {
+    json["advice_by_kind"][std::string(name(static_cast<AdviceKind>(kind)))] = figures.advice_by_kind[kind];
+  }
   json["advice_applied"] = figures.advice(AdviceFate::kApplied);
   json["advice_refused"] = fates_json(figures, kRefused);
   json["advice_changed"] = fates_json(figures, kChanged);
@@ -78,6 +98,8 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
     json["advice_lost"] = fates_json(figures, kLost);
     json["advice_dropped"] = fates_json(figures, kDropped);
   }
+  if (requests) json["signals"] = requests_json(*requests);
+  if (deadline_misses) json["rsu_deadline_misses"] = *deadline_misses;
   json["guard_interventions"] = figures.guard_interventions;
   json["collisions"] = figures.collisions;
   json["reversals"] = figures.reversals;

@@ -1,5 +1,6 @@
 #include "services/rsu/rsu_config.hpp"
 
+#include "common/scenario/actuation.hpp"
 #include "common/scenario/radio.hpp"
 #include "scenario.pb.h"
 
@@ -46,12 +47,42 @@ QueueRules queue_of(const Message& from) {
   return {.headway_s = from.headway_s(), .spacing_m = from.spacing_m(), .equipped_share = from.equipped_share()};
 }
 
+Staging staging_of(scenario::Staging::Stages stages) {
+  return stages == scenario::Staging::PROTECTED_LEFTS ? Staging::kProtectedLefts : Staging::kAxes;
+}
+
 /// A message that is absent belongs to an algorithm that is not chosen: its parameters stay at their defaults.
 AlgorithmParameters parameters_of(const scenario::Rsu& from, double acceleration_max_mps2) {
   AlgorithmParameters parameters;
   parameters.arrive_on_green.acceleration_max_mps2 = acceleration_max_mps2;
   if (from.has_arrive_on_green()) {
     parameters.arrive_on_green = arrive_on_green_of(from.arrive_on_green(), acceleration_max_mps2);
+  }
+  if (from.has_actuated()) {
+    parameters.actuated = {.staging = staging_of(from.actuated().stages()),
+                           .gap_s = from.actuated().gap_s(),
+                           .detection_m = from.actuated().detection_m(),
+                           .max_green_s = from.actuated().max_green_s()};
+  }
+  if (from.has_cv_phase()) {
+    const scenario::CvPhase& said = from.cv_phase();
+    parameters.cv_phase = {.staging = staging_of(said.stages()),
+                           .headway_s = said.headway_s(),
+                           .equipped_share = said.equipped_share(),
+                           .horizon_s = said.horizon_s(),
+                           .decision_s = said.decision_s(),
+                           .speeding_up_mps2 = said.speeding_up_mps2(),
+                           .target_speed_share = said.target_speed_share(),
+                           .first_crossing_s = said.first_crossing_s(),
+                           .tail_s = said.tail_s(),
+                           .gap_s = said.gap_s(),
+                           .max_red_s = said.max_red_s()};
+  }
+  if (from.has_max_pressure()) {
+    parameters.max_pressure = {.staging = staging_of(from.max_pressure().stages()),
+                               .distance_m = from.max_pressure().distance_m(),
+                               .decision_s = from.max_pressure().decision_s(),
+                               .hysteresis_veh = from.max_pressure().hysteresis_veh()};
   }
   if (from.has_eco()) {
     parameters.eco = {
@@ -93,7 +124,13 @@ Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t
   config.speed_limit_mps = scenario.vehicles().speed_limit_kmh() / 3.6;
   config.acceleration_max_mps2 = scenario.vehicles().acceleration_max_mps2();
   config.radio = scenario::radio_parameters(scenario);
+  config.signal_promise = static_cast<Step>(scenario.run().signal_promise_steps());
+  config.actuation = scenario::actuation(scenario);
   config.algorithm = from.algorithm();
+  config.computing.measured = from.computing().mode() == scenario::Computing::REAL;
+  if (from.computing().mode() == scenario::Computing::DECLARED) {
+    config.computing.declared_ms = from.computing().declared_ms();
+  }
   config.parameters = parameters_of(from, config.acceleration_max_mps2);
   for (const scenario::Sensor& sensor : from.sensors()) {
     config.sensors.push_back(

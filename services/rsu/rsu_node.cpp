@@ -6,6 +6,7 @@
 #include "common/core/contract.hpp"
 #include "common/messages/bsm.hpp"
 #include "common/messages/time_marks.hpp"
+#include "services/rsu/guided_path.hpp"
 
 namespace lukou {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr std::uint16_t kNode = 1;          // id of the intersection; assumed, from the range for tests
 constexpr std::size_t kStatesPerPhase = 3;  // what shows now and the two aspects after it
 constexpr Step kMapEvery = kStepsPerSecond;
-constexpr Step kLongestLifetime = 65'534 / 10;  // steps that the field of 10 ms units holds
 
 constexpr double kTypicalWidth_m = 1.8;            // of what a sensor sees; assumed
 constexpr Step kClockTolerance = kStepsPerSecond;  // a car's clock may be this far ahead; assumed
@@ -44,6 +44,9 @@ MapData map_of(const RsuConfig& config) {
   return map;
 }
 
+/// Steps by which a declared computing time delays a request: what is said before the next instant is heard there.
+Step request_delay(const RsuConfig& config) { return config.computing.declared_ms / kStep_ms; }
+
 /// What a message says of its car, if it says enough to place it on the map.
 std::optional<CarReport> report_of(const BasicSafety& message, Step now) {
   if (!message.speed_mps || !message.heading_rad) return std::nullopt;
@@ -70,8 +73,10 @@ RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
       map_(map_of(config_)) {
   LUKOU_EXPECT(algorithm_ != nullptr);
   view_.map = {.speed_limit_mps = config_.speed_limit_mps, .approach_length_m = config_.road.approach_m};
+  view_.actuation = config_.actuation;
   spat_.node = kNode;
   guidance_.rsu = config_.station_id;
+  guidance_.node = kNode;
   safety_.rsu = config_.station_id;
 }
 
@@ -83,6 +88,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   out.frames_heard = 0;
   out.frames_malformed = 0;
   out.answers_malformed = 0;
+  out.requests_refused = 0;
   out.reception.clear();
   if (new_signal != nullptr) {
     const auto taken = signals_.take({.first = new_signal->first,
@@ -96,6 +102,8 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   hear(k, air, out);
   look(k, air.sensed);
   think(k);
+  out.computing_ms = answer();
+  ask_for_green(k, out);
   say_spat(k, out.frames);
   if (k % kMapEvery == 0) say_map(k, out.frames);
   say_guidance(k, out);
@@ -187,6 +195,8 @@ void RsuNode::look(Step k, const SensedColumns& sensed) {
 void RsuNode::think(Step k) {
   view_.step = k;
   view_.time_s = time_s(k);
+  view_.promised_to = signals_.promised_to();
+  view_.request_acts = k + request_delay(config_) + 1 + config_.signal_promise;
   for (std::size_t i = 0; i < view_.lanes.size(); ++i) {
     const auto lane = static_cast<Lane>(i);
     view_.lanes[i] = {.cars = cars_.cars(lane),
@@ -196,8 +206,38 @@ void RsuNode::think(Step k) {
                       .aspect_since = signals_.since(lane),
                       .changes = signals_.changes(lane)};
   }
+}
+
+std::uint32_t RsuNode::answer() {
   answer_.clear();
+  const bool measured = config_.computing.measured && wall_s_;
+  const double begin_s = measured ? wall_s_() : 0.0;
   algorithm_->on_step(view_, answer_);
+  if (!measured) return config_.computing.declared_ms;
+  // Whole milliseconds: as they are recorded, so that a replay has exactly them.
+  const double took_ms = std::clamp((wall_s_() - begin_s) * 1e3, 0.0, kLatencyMax_ms);
+  return static_cast<std::uint32_t>(took_ms + 0.5);
+}
+
+void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
+  request_.rsu = config_.rsu;
+  request_.step = k;
+  request_.lanes.clear();
+  request_.lifetime.clear();
+  if (answer_.request() && !config_.actuation) {
+    out.requests_refused = 1;
+  } else if (answer_.request()) {
+    held_requests_.push_back({k + request_delay(config_), *answer_.request()});
+  }
+  if (held_requests_.empty() || held_requests_.front().due > k) return;
+  // A lifetime counts from the step of the answer.
+  const SignalRequest& due = held_requests_.front().request;
+  const Step lifetime = due.lifetime - request_delay(config_);
+  if (lifetime > 0 || due.lifetime <= 0) {
+    request_.lanes.push_back(due.green.bits());
+    request_.lifetime.push_back(lifetime);
+  }
+  held_requests_.pop_front();
 }
 
 void RsuNode::say_spat(Step k, Frames& frames) {
@@ -226,32 +266,36 @@ void RsuNode::say_map(Step k, Frames& frames) {
 
 void RsuNode::say_guidance(Step k, RoadsideBatch& out) {
   guidance_.second_mark_ms = second_mark_ms(k);
-  guidance_.vehicles.clear();
   for (const RsuAnswer::Item& item : answer_.items()) {
-    VehicleCoordination vehicle{.vehicle = static_cast<std::uint64_t>(item.car), .path = {}, .binding = {}};
-    if (item.advice) {
-      // A car that is not on the map stands at the centre of the junction: its advice is for the car to refuse.
-      const ReportedPlace place = cars_.place(item.car).value_or(ReportedPlace{});
-      const Step lifetime = std::clamp<Step>(item.advice->lifetime, 0, kLongestLifetime + 1);
-      vehicle.path = GuidedPath{.centre = {place.centre_x_m, place.centre_y_m},
-                                .acceleration_mps2 = item.advice->acceleration_mps2,
-                                .lifetime_ms = static_cast<std::uint32_t>(lifetime * kStep_ms)};
-      vehicle.binding = item.advice->binding;
-      if (!fits(*vehicle.path)) {
-        ++out.answers_malformed;
-        continue;
-      }
+    VehicleCoordination& vehicle = guidance_.vehicles.emplace_back();
+    vehicle.vehicle = static_cast<std::uint64_t>(item.car);
+    vehicle.path = guided_path(item, cars_.report(item.car));
+    vehicle.binding = binding_of(item);
+    if (vehicle.path && !fits(*vehicle.path)) {
+      guidance_.vehicles.pop_back();
+      ++out.answers_malformed;
+      continue;
     }
-    guidance_.vehicles.push_back(vehicle);
     if (guidance_.vehicles.size() == kMaxCoordinations) send_guidance(out.frames);
   }
   if (!guidance_.vehicles.empty()) send_guidance(out.frames);
+  for (const LaneSpeedAdvice& advice : answer_.lanes()) {
+    const LaneSpeed word = lane_word(advice);
+    if (!fits(word)) {
+      ++out.answers_malformed;
+      continue;
+    }
+    guidance_.lanes.push_back(word);
+    if (guidance_.lanes.size() == kMaxLaneCoordinations) send_guidance(out.frames);
+  }
+  if (!guidance_.lanes.empty()) send_guidance(out.frames);
 }
 
 void RsuNode::send_guidance(Frames& frames) {
   guidance_.count = next_count(FrameKind::kRsc);
   append(frames, next_envelope(), guidance_);
   guidance_.vehicles.clear();
+  guidance_.lanes.clear();
 }
 
 void RsuNode::say_sensed(Frames& frames) {

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/bus/batches.hpp"
@@ -30,6 +33,8 @@ class RsuNode {
   /// Requires an algorithm.
   RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm);
 
+  /// Where the node reads the wall clock [s] if its computing time is to be measured; without one it counts as 0.
+  void measure_with(std::function<double()> wall_s) { wall_s_ = std::move(wall_s); }
   /// The scenario after the directives of the next step: takes over the radio and how good its
   /// sensors are, nothing else.
   void change(const RsuConfig& config);
@@ -38,6 +43,8 @@ class RsuNode {
   /// Requires steps one after the other, air of the same step with well-formed columns, and a promise that covers it:
   /// the lockstep has checked them.
   void step(Step k, const SignalBatch* new_signal, const AirBatch& air, RoadsideBatch& out);
+  /// What the last step asks of the signal controller, its epoch excepted; nothing if the plan is fixed.
+  [[nodiscard]] const RequestBatch& request() const { return request_; }
 
  private:
   /// A frame on its way to this RSU.
@@ -46,11 +53,20 @@ class RsuNode {
     std::vector<std::uint8_t> payload;
   };
 
+  /// A request that is still being computed.
+  struct HeldRequest {
+    Step due = 0;
+    SignalRequest request;
+  };
+
   void hear(Step k, const AirBatch& air, RoadsideBatch& out);
   void receive(const AirBatch& air);
   void understand(Step k, std::uint8_t kind, std::span<const std::uint8_t> payload, RoadsideBatch& out);
   void look(Step k, const SensedColumns& sensed);
   void think(Step k);
+  void ask_for_green(Step k, RoadsideBatch& out);
+  /// Lets the algorithm answer; returns by how much that delays the answer [ms].
+  std::uint32_t answer();
   void say_spat(Step k, Frames& frames);
   void say_map(Step k, Frames& frames);
   void say_guidance(Step k, RoadsideBatch& out);
@@ -62,6 +78,7 @@ class RsuNode {
 
   RsuConfig config_;
   std::unique_ptr<RsuAlgorithm> algorithm_;
+  std::function<double()> wall_s_;
   Modem modem_;
   ChannelLoad load_;
   StationSpeed speeds_;            ///< of the cars, if the latency asks for them
@@ -74,6 +91,8 @@ class RsuNode {
   SignalView signals_;
   RsuView view_;
   RsuAnswer answer_;
+  std::deque<HeldRequest> held_requests_;
+  RequestBatch request_;
   MapData map_;
   Spat spat_;
   Coordination guidance_;

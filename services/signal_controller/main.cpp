@@ -1,5 +1,8 @@
+#include <optional>
+
 #include "common/process/options.hpp"
 #include "common/process/stepping.hpp"
+#include "common/scenario/actuation.hpp"
 #include "common/scenario/scenario.hpp"
 #include "common/scenario/scenario_steps.hpp"
 #include "services/signal_controller/signal_controller_node.hpp"
@@ -25,12 +28,38 @@ int run(int argc, char** argv) {
   auto scenario = scenario::load_text(welcome.value(), "welcome", "/");
   if (!scenario) return process::report_start(scenario.error(), process::kExitUsage);
 
-  SignalControllerNode node(scenario::signal_plan(scenario.value()).value(),
-                            scenario::signal_promise(scenario.value()));
+  const auto actuation = scenario::actuation(scenario.value().message());
+  SignalControllerNode node(scenario::signal_plan(scenario.value()).value(), scenario::signal_promise(scenario.value()),
+                            actuation);
+  // A fixed plan hears no requests: nobody pays for them.
+  std::optional<bus::Reader<RequestBatch>> requests_in;
+  std::vector<Edge<RequestBatch>> requests;
+  if (actuation) {
+    requests_in.emplace(member.participant());
+    member.faces(Topic::kRequest, *requests_in, false);
+    requests.assign(scenario::protocol(scenario.value()).rsus, Edge<RequestBatch>(kStepBefore));
+  }
+  const auto checked = [&](const Expected<Done>& done) {
+    if (!done) process::give_up(member, role, done.error());
+  };
   SignalBatch batch;
   process::run_steps(
-      member, [] {}, [](Step) { return std::string(); },
+      member,
+      [&] {
+        if (!requests_in) return;
+        requests_in->take([&](RequestBatch& asked, const bus::SampleInfo& info) {
+          if (info.alive && asked.rsu < requests.size()) checked(requests[asked.rsu].accept(info.epoch, asked));
+        });
+      },
       [&](Step k) {
+        for (std::uint32_t rsu = 0; rsu < requests.size(); ++rsu)
+          if (!requests[rsu].ready(k)) return rsu_role(rsu);
+        return std::string();
+      },
+      [&](Step k) {
+        for (Edge<RequestBatch>& edge : requests) {
+          if (const RequestBatch* asked = edge.take(k)) checked(node.hear(k, *asked));
+        }
         if (scenario::apply(scenario.value(), member.due(k))) {
           node.use_plan(scenario::signal_plan(scenario.value()).value(), k);
         }

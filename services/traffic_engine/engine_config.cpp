@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/scenario/radio.hpp"
-#include "common/scenario/scenario.hpp"
+#include "common/scenario/scenario_steps.hpp"
 #include "scenario.pb.h"
 
 namespace lukou {
@@ -32,6 +32,17 @@ traffic::VehicleParameters vehicle_parameters(const scenario::Vehicles& from) {
           .speed_limit_mps = from.speed_limit_kmh() / kKmhPerMps,
           .acceleration_max_mps2 = from.acceleration_max_mps2(),
           .actuation_noise_mps2 = from.actuation_noise_mps2()};
+}
+
+/// A field that is kept absent has its fallback.
+traffic::UnitParameters unit_parameters(const scenario::OnBoardUnit& from) {
+  traffic::UnitParameters unit;
+  unit.fallback_s = from.fallback_s();
+  unit.rsu_lost_after_s = from.rsu_lost_after_s();
+  if (from.has_speed_gain_time_s()) unit.speed_gain_time_s = from.speed_gain_time_s();
+  if (from.has_speed_acceleration_mps2()) unit.speed_acceleration_mps2 = from.speed_acceleration_mps2();
+  if (from.has_speed_deceleration_mps2()) unit.speed_deceleration_mps2 = from.speed_deceleration_mps2();
+  return unit;
 }
 
 traffic::DrivingParameters driving_parameters(const scenario::Driving& from) {
@@ -134,12 +145,12 @@ Expected<EngineConfig> engine_config(const scenario::Resolved& scenario) {
   config.radio = scenario::radio_parameters(from);
   config.unit_errors = unit_error_parameters(from.vehicles());
   config.sensors = sensor_parameters(from);
+  config.rsu_measured = scenario::protocol(scenario).rsu_measured;
   config.traffic.seed = from.run().seed();
   config.traffic.overflow_wait_s = from.run().overflow_wait_s();
   config.traffic.vehicles = vehicle_parameters(from.vehicles());
   config.traffic.equipped_ratio = from.vehicles().equipped_ratio();
-  const scenario::OnBoardUnit& unit = from.vehicles().on_board_unit();
-  config.traffic.unit = {.fallback_s = unit.fallback_s(), .rsu_lost_after_s = unit.rsu_lost_after_s()};
+  config.traffic.unit = unit_parameters(from.vehicles().on_board_unit());
   const scenario::Compliance& compliance = from.vehicles().compliance();
   config.traffic.compliance = {.human_share = compliance.human_share(),
                                .ignoring_share = compliance.ignoring_share(),

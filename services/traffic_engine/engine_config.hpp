@@ -20,6 +20,7 @@ struct EngineConfig {
   RadioParameters radio;
   traffic::UnitErrorParameters unit_errors;
   std::vector<traffic::SensorParameters> sensors;  ///< of all RSUs, in the order of the scenario
+  std::vector<bool> rsu_measured;                  ///< by RSU: its computing time is measured
 };
 
 /// Reads it, traces of arrivals included. Refuses values that are each in range but do not go together.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "common/core/contract.hpp"
 #include "common/intersection/geometry.hpp"
@@ -18,7 +19,7 @@ namespace {
 /// Steps that begin within a lifetime: an advice of 250 ms acts in three.
 Step steps_of_life(std::uint32_t lifetime_ms) { return (static_cast<Step>(lifetime_ms) + kStep_ms - 1) / kStep_ms; }
 
-AdviceFate fate_of(LossCause cause) {
+AdviceFate loss_fate(LossCause cause) {
   switch (cause) {
     case LossCause::kRandom:
       return AdviceFate::kLostRandom;
@@ -36,6 +37,29 @@ AdviceFate fate_of(LossCause cause) {
       break;
   }
   return AdviceFate::kLostRange;
+}
+
+/// What an RSC asks of a car, but for its frame.
+traffic::Advice advice_of(const VehicleCoordination& asked) {
+  traffic::Advice advice{.target = asked.vehicle,
+                         .binding = asked.binding == Binding::kFollowing ? traffic::AdviceBinding::kFollowing
+                                                                         : traffic::AdviceBinding::kGuard,
+                         .release = !asked.path};
+  if (!asked.path) return advice;
+  const GuidedPath& path = *asked.path;
+  advice.acceleration_mps2 = path.acceleration_mps2;
+  advice.lifetime = steps_of_life(path.lifetime_ms);
+  if (path.speed_mps) {
+    advice.kind = traffic::AdviceKind::kSpeed;
+    advice.speed_mps = *path.speed_mps;
+    advice.acceleration_mps2 = std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!path.later.empty()) advice.kind = traffic::AdviceKind::kProfile;
+  for (const LaterAcceleration& later : path.later) {
+    // From the first step that begins then: a point at 250 ms acts from the fourth step on.
+    advice.later.push_back({.after = steps_of_life(later.from_ms), .acceleration_mps2 = later.acceleration_mps2});
+  }
+  return advice;
 }
 
 bool same_flows(const traffic::DemandParameters& a, const traffic::DemandParameters& b) {
@@ -94,7 +118,7 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
     hear(*batch);
     load_.add_roadside(batch->frames, batch->step);
   }
-  if (config_.radio.modelled) deliver(k - 1);
+  if (config_.radio.modelled || !inbox_.empty()) deliver(k - 1);
   engine_.step(k, k > 0 ? promise_.at(k - 1) : Heads{}, advice_);
   promise_.forget_before(k);
 
@@ -103,7 +127,10 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   if (auto done = report_reception(roadside, traffic); !done) return done;
   for (const RoadsideBatch* batch : roadside) {
     traffic.heard_epoch.push_back(batch != nullptr ? batch->epoch : 0);
-    if (batch != nullptr) traffic.answers_malformed += batch->answers_malformed;
+    traffic.computing_ms.push_back(batch != nullptr ? computing_ms(*batch) : 0);
+    if (batch == nullptr) continue;
+    traffic.answers_malformed += batch->answers_malformed;
+    traffic.requests_refused += batch->requests_refused;
   }
   air.step = k;
   air.frames.clear();
@@ -113,6 +140,18 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   between_cars_.hear(air.frames, k, load_);
   next_ = k + 1;
   return Done{};
+}
+
+void EngineNode::replay(const std::vector<ComputingDelay>& computed) {
+  replayed_.emplace();
+  for (const ComputingDelay& delay : computed) replayed_->insert({{delay.step, delay.rsu}, delay.delay_ms});
+}
+
+std::uint32_t EngineNode::computing_ms(const RoadsideBatch& batch) const {
+  const bool measured = batch.rsu < config_.rsu_measured.size() && config_.rsu_measured[batch.rsu];
+  if (!replayed_ || !measured) return batch.computing_ms;
+  const auto recorded = replayed_->find({batch.step, batch.rsu});
+  return recorded == replayed_->end() ? 0 : recorded->second;
 }
 
 void EngineNode::hear(const RoadsideBatch& batch) {
@@ -130,7 +169,8 @@ void EngineNode::hear_spat(const RoadsideBatch& batch, std::size_t frame) {
     const auto lane = static_cast<Lane>(i);
     for (const traffic::Car& car : engine_.lane(lane).cars()) {
       if (!car.unit.listens(batch.rsu, batch.step + 1, lost_after)) continue;
-      const Hop hop = hop_to(lane, car, batch, frame);
+      Hop hop = hop_to(lane, car, batch, frame);
+      hop.computing_ms = 0.0;  // no algorithm has a part in it
       const Reception reception = modem_.receive(hop);
       if (!reception.lost) spats_.add(reception, hop, {car.temporary_id, batch.rsu});
     }
@@ -141,31 +181,66 @@ void EngineNode::hear_coordination(const RoadsideBatch& batch, std::size_t frame
   const std::uint32_t sequence = batch.frames.sequence[frame];
   const auto message = decode_rsc(batch.frames.payload_of(frame));
   if (!message) {
-    fates_.push_back({traffic::kNoVehicle, batch.rsu, sequence, AdviceFate::kMalformed, -1,
-                      std::numeric_limits<double>::quiet_NaN()});
+    fates_.push_back({.vehicle = traffic::kNoVehicle,
+                      .rsu = batch.rsu,
+                      .sequence = sequence,
+                      .fate = AdviceFate::kMalformed,
+                      .issued = -1,
+                      .commanded_mps2 = std::numeric_limits<double>::quiet_NaN()});
     return;
   }
   const Step issued = step_of_second_mark(batch.step, message.value().second_mark_ms);
   for (const VehicleCoordination& asked : message.value().vehicles) {
-    traffic::Advice advice{.target = asked.vehicle,
-                           .acceleration_mps2 = 0.0,
-                           .binding = asked.binding == Binding::kFollowing ? traffic::AdviceBinding::kFollowing
-                                                                           : traffic::AdviceBinding::kGuard,
-                           .release = !asked.path,
-                           .issued = issued,
-                           .lifetime = 0,
-                           .rsu = batch.rsu,
-                           .sequence = sequence};
-    if (asked.path) {
-      advice.acceleration_mps2 = asked.path->acceleration_mps2;
-      advice.lifetime = steps_of_life(asked.path->lifetime_ms);
-    }
-    if (config_.radio.modelled) {
-      send(advice, batch, frame);
-    } else {
-      advice_.push_back(advice);
-    }
+    traffic::Advice advice = advice_of(asked);
+    advice.issued = issued;
+    advice.rsu = batch.rsu;
+    advice.sequence = sequence;
+    pass_on(std::move(advice), batch, frame);
   }
+  for (const LaneSpeed& word : message.value().lanes) {
+    const traffic::Advice advice{.acceleration_mps2 = std::numeric_limits<double>::quiet_NaN(),
+                                 .issued = issued,
+                                 .lifetime = steps_of_life(word.lifetime_ms),
+                                 .rsu = batch.rsu,
+                                 .sequence = sequence,
+                                 .kind = traffic::AdviceKind::kLaneSpeed,
+                                 .speed_mps = word.speed_mps};
+    say_on_lane(word, advice, batch, frame);
+  }
+}
+
+void EngineNode::say_on_lane(const LaneSpeed& word, traffic::Advice advice, const RoadsideBatch& batch,
+                             std::size_t frame) {
+  for (const traffic::Car& car : engine_.lane(word.lane).cars()) {
+    if (!car.equipped || car.stage == traffic::Stage::kExit) continue;
+    advice.target = car.temporary_id;
+    pass_on(traffic::Advice(advice), batch, frame);
+  }
+}
+
+void EngineNode::pass_on(traffic::Advice&& advice, const RoadsideBatch& batch, std::size_t frame) {
+  if (config_.radio.modelled) {
+    send(advice, batch, frame);
+  } else if (computing_ms(batch) > 0) {
+    delay(advice, batch, frame);
+  } else {
+    advice_.push_back(std::move(advice));
+  }
+}
+
+void EngineNode::delay(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame) {
+  const auto target = engine_.equipped_car(advice.target);
+  if (!target) {
+    advice_.push_back(advice);
+    return;
+  }
+  const Hop hop = hop_to(target->lane, *target->car, batch, frame);
+  inbox_.add(modem_.receive(hop), hop, advice);
+}
+
+EngineNode::Fate EngineNode::fate_of(const traffic::Advice& advice, std::uint32_t vehicle, AdviceFate fate) {
+  return {vehicle,     advice.rsu,      advice.sequence, fate, advice.issued, advice.acceleration_mps2,
+          advice.kind, advice.speed_mps};
 }
 
 void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch, std::size_t frame) {
@@ -180,9 +255,8 @@ void EngineNode::send(const traffic::Advice& advice, const RoadsideBatch& batch,
   if (!reception.lost) {
     inbox_.add(reception, hop, advice);
   } else if (!advice.release) {
-    const AdviceFate fate = fate_of(*reception.lost);
-    fates_.push_back(
-        {target->car->vehicle, advice.rsu, advice.sequence, fate, advice.issued, advice.acceleration_mps2});
+    const AdviceFate fate = loss_fate(*reception.lost);
+    fates_.push_back(fate_of(advice, target->car->vehicle, fate));
     engine_.miss(advice, static_cast<std::uint8_t>(fate));
   }
 }
@@ -203,7 +277,8 @@ Hop EngineNode::hop_to(Lane lane, const traffic::Car& car, const RoadsideBatch& 
           .rsu = batch.rsu,
           .epoch = batch.epoch,
           .place = static_cast<std::uint32_t>(frame),
-          .car_speed_mps = car.motion.speed_mps};
+          .car_speed_mps = car.motion.speed_mps,
+          .computing_ms = static_cast<double>(computing_ms(batch))};
   if (modem_.asks_for_collisions()) {
     hop.collision_probability = load_.collision_from_mast(antenna, load_.width(batch.frames.wire_bytes[frame]));
   }
@@ -219,8 +294,7 @@ void EngineNode::deliver(Step now) {
       advice_.push_back(advice);
     } else if (!advice.release) {
       const auto target = engine_.equipped_car(advice.target);
-      fates_.push_back({target ? target->car->vehicle : traffic::kNoVehicle, advice.rsu, advice.sequence,
-                        AdviceFate::kDuplicate, advice.issued, advice.acceleration_mps2});
+      fates_.push_back(fate_of(advice, target ? target->car->vehicle : traffic::kNoVehicle, AdviceFate::kDuplicate));
     }
   }
 }
@@ -234,6 +308,8 @@ void EngineNode::report_fates(TrafficBatch& traffic) const {
     traffic.fate_again.push_back(0);
     traffic.fate_issued.push_back(known.issued);
     traffic.fate_commanded_mps2.push_back(known.commanded_mps2);
+    traffic.fate_kind.push_back(static_cast<std::uint8_t>(known.kind));
+    traffic.fate_speed_mps.push_back(known.speed_mps);
   }
 }
 

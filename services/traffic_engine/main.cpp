@@ -2,6 +2,7 @@
 
 #include "common/process/options.hpp"
 #include "common/process/stepping.hpp"
+#include "common/scenario/directive_log.hpp"
 #include "common/scenario/scenario_steps.hpp"
 #include "services/traffic_engine/engine_node.hpp"
 
@@ -11,7 +12,9 @@ namespace {
 
 /// Joins a run as its traffic engine and executes its steps.
 int run(int argc, char** argv) {
-  const auto options = process::member_options(argc, argv, "Every vehicle of a run.", {process::kNoWatchdog});
+  const auto options = process::member_options(
+      argc, argv, "Every vehicle of a run.",
+      {process::kNoWatchdog, {"--replay-directives", "directives.textproto of an earlier run"}});
   if (!options) return std::stoi(options.error().what);
   process::catch_terminate_signal();
   const std::string role(kEngineRole);
@@ -37,6 +40,11 @@ int run(int argc, char** argv) {
   const scenario::Protocol protocol = scenario::protocol(scenario.value());
 
   EngineNode node(config.value());
+  if (options.value().has("--replay-directives")) {
+    const auto log = scenario::load_directives(options.value().value("--replay-directives"));
+    if (!log) return process::report_start(log.error(), process::kExitUsage);
+    node.replay(log.value().computed);
+  }
   Edge<SignalBatch> signal(signal_timing(protocol.signal_promise));
   std::vector<Edge<RoadsideBatch>> roadside(protocol.rsus, Edge<RoadsideBatch>(kStepBefore));
   member.on_fence([&](std::uint32_t rsu, std::uint32_t epoch) { return roadside.at(rsu).fence(epoch); });

@@ -28,6 +28,10 @@ static_assert(static_cast<int>(AdviceOutcome::kStale) == static_cast<int>(Advice
 static_assert(static_cast<int>(AdviceOutcome::kNotComplied) == static_cast<int>(AdviceFate::kNotComplied));
 static_assert(static_cast<int>(AdviceOutcome::kChangedDriver) == static_cast<int>(AdviceFate::kChangedDriver));
 static_assert(static_cast<int>(AdviceOutcome::kLate) == static_cast<int>(AdviceFate::kLate));
+static_assert(static_cast<int>(traffic::AdviceKind::kAcceleration) == static_cast<int>(AdviceKind::kAcceleration));
+static_assert(static_cast<int>(traffic::AdviceKind::kProfile) == static_cast<int>(AdviceKind::kProfile));
+static_assert(static_cast<int>(traffic::AdviceKind::kSpeed) == static_cast<int>(AdviceKind::kSpeed));
+static_assert(static_cast<int>(traffic::AdviceKind::kLaneSpeed) == static_cast<int>(AdviceKind::kLaneSpeed));
 static_assert(static_cast<int>(Guidance::kNeverAdvised) == static_cast<int>(GuidanceState::kNeverAdvised));
 static_assert(static_cast<int>(Guidance::kInForce) == static_cast<int>(GuidanceState::kInForce));
 static_assert(static_cast<int>(Guidance::kReleased) == static_cast<int>(GuidanceState::kReleased));
@@ -103,6 +107,8 @@ void report_events(const traffic::Engine& engine, TrafficBatch& batch) {
     batch.fate_again.push_back(outcome.again ? 1 : 0);
     batch.fate_issued.push_back(outcome.issued);
     batch.fate_commanded_mps2.push_back(outcome.command_mps2);
+    batch.fate_kind.push_back(static_cast<std::uint8_t>(outcome.kind));
+    batch.fate_speed_mps.push_back(outcome.speed_mps);
   }
   batch.guard_interventions = events.guard_interventions;
 }

@@ -23,6 +23,7 @@ struct client {
   uint32_t rsu;                   /* index in the scenario's list */
   char role[16];                  /* "rsu0" */
   dds_entity_t participant, waitset, control, up, air, signal, roadside;
+  dds_entity_t request;           /* 0: the plan is fixed, the controller hears no requests */
   bool welcome, over, failed;
   uint32_t epoch, roster_version;
   bool roster_open;
@@ -121,6 +122,7 @@ static void answer_roster(struct client *c) {
   if (!sees(c->control, false, clock_id) || !sees(c->up, true, clock_id)) return;
   if (!sees(c->air, false, engine_id) || !sees(c->roadside, true, engine_id)) return;
   if (!sees(c->signal, false, controller_id)) return;
+  if (c->request != 0 && !sees(c->request, true, controller_id)) return;
   c->roster_open = false;
   say(c, UP_SEES, c->roster_version, "");
 }
@@ -131,6 +133,8 @@ static void obey(struct client *c, const lukou_bus_Control *said) {
     c->welcome = true;
     c->epoch = said->epoch;
     clock_id = said->clock;
+    if (strstr(said->text, "actuation {") != NULL)
+      c->request = endpoint(c, &lukou_bus_Request_desc, "lukou/request", true, false);
   } else if (said->kind == REFUSE || said->kind == ABORT) {
     fprintf(stderr, "rsu_in_c: %s\n", said->text);
     c->over = c->failed = true;
@@ -284,6 +288,12 @@ static void execute(struct client *c, const lukou_bus_Air *air) {
   LEND(answer.frames.payload_end, ends), LEND(answer.frames.payload, payload);
   answer.frames.payload._length = answer.frames.payload._maximum = payload.size;
   write_until_done(c, c->roadside, &answer);
+  if (c->request == 0) return;
+  /* It asks for no greens; the controller waits for its word all the same. */
+  lukou_bus_Request request;
+  memset(&request, 0, sizeof request);
+  request.producer = c->self, request.epoch = c->epoch, request.step = air->step, request.rsu = c->rsu;
+  write_until_done(c, c->request, &request);
 }
 
 /* Takes the next batch of the air if the clock has granted its step. */

@@ -43,6 +43,21 @@ stop.csv 78df05efbf88e514960c204a9b716095e7739bdb21609578ced4f28ef26744d7
 stop_time.csv 24995a45268ca401a2251baa3b4e1ab902d6cd7f08a4a2e8bca74e0e4ff356f5
 stops.csv 62935f667afce70f98da390bfc04d129a99af6bb111f9d01bf2fc384320563a3
 summary.json 786b9c928ceb98559201c9835295d880bf50655b542e7a64f8a6e5cb2d48a7f2
+)"},
+      {.name = "lights on request, where nobody asks and lanes wait too long",
+       .arguments = paper_with({"run.seed=3", "run.warmup_s=100", "signals.preset=PROTECTED_LEFT",
+                                "signals.actuation.max_wait_s=60", "traffic.west.flow_veh_per_h=1000",
+                                "traffic.south.flow_veh_per_h=600", "traffic.east.flow_veh_per_h=1000",
+                                "traffic.north.flow_veh_per_h=600"}),
+       .golden = R"(car.csv 342a24a99341a1641c8ff5924b255fd659cc40b19082210be088753385e11fb6
+directives.textproto e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855
+requests.csv fb2b13b49e4534bf0f2a0416f79badb8afd74de8a887464dc6986604004e932d
+road.csv 665e945f1987261205520a3c5d61ec99f0cb4be0f857dff3e47f84b4005cde38
+scenario.textproto bbf661ae305dbc4a951acbbae3fcd1e82379fbf5a60fe1928cfc4393b3e9384a
+stop.csv 4c35c0ef51dae2b23598a5b7446d0d62cb8c5cb2bca91df2ad905cf622863ca6
+stop_time.csv 6692519d02c40fefeda93668cba007726ebdc505093d9ff549219d413d1ba617
+stops.csv 93abbe6d3e0026e6ab94cb6b9b0b6f2231e93fce74a480e94ba3b6bc9abddaf7
+summary.json a17bf8f988ff14256b248d6f6004b2552e58589f79a19b3835008c59f7aaf0dd
 )"}};
   return kRuns;
 }

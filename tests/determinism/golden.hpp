@@ -14,7 +14,7 @@ struct GoldenRun {
   std::string golden;                  ///< what fingerprint() must give
 };
 
-/// The paper's scenario, and one that goes where the paper does not.
+/// The paper's scenario, and those that go where the paper does not.
 const std::vector<GoldenRun>& golden_runs();
 
 /// Runs `program` in one process and gives a line `NAME SHA256` for each result file, in the order of their names; the

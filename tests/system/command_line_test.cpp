@@ -33,8 +33,8 @@ TEST(CommandLine, NamesLineAndColumnOfAMistakeAndWhatWouldBeRight) {
 TEST(CommandLine, ListsEachAlgorithmWithItsSourceAndParameters) {
   const Finished run = lukou({"algorithms"});
   EXPECT_EQ(run.code, 0);
-  for (const char* name :
-       {"arrive_on_green", "eco", "glosa", "glosa_queue", "none", "platoon", "speed_harmonisation"}) {
+  for (const char* name : {"actuated", "arrive_on_green", "cv_phase", "eco", "glosa", "glosa_queue", "max_pressure",
+                           "none", "platoon", "speed_harmonisation"}) {
     EXPECT_NE(("\n" + run.out).find("\n" + std::string(name) + ": "), std::string::npos) << name;
   }
   EXPECT_NE(run.out.find("speed_min_kmh            default 18 km/h, [1, 60]; "), std::string::npos) << run.out;

@@ -3,6 +3,7 @@
 #include "common/lockstep/clock_core.hpp"
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
+#include "common/scenario/actuation.hpp"
 #include "common/scenario/scenario_steps.hpp"
 #include "services/lukou/launch/result_of_run.hpp"
 #include "services/lukou/launch/run_request.hpp"
@@ -21,18 +22,24 @@ constexpr std::size_t kRecentSignals = 4;
 /// All nodes of a run in one thread, in the order that the edges give: controller, engine, recorder, RSUs.
 class InProcessRun {
  public:
-  InProcessRun(scenario::Resolved scenario, scenario::DirectiveLog log)
-      : scenario_(std::move(scenario)), protocol_(scenario::protocol(scenario_)), log_(std::move(log)) {
+  /// `replays`: the log is that of an earlier run.
+  InProcessRun(scenario::Resolved scenario, scenario::DirectiveLog log, bool replays)
+      : scenario_(std::move(scenario)),
+        protocol_(scenario::protocol(scenario_)),
+        log_(std::move(log)),
+        replays_(replays) {
     if (log_.stop) protocol_.end = std::min(protocol_.end, *log_.stop);
   }
 
   Expected<Done> build(const std::filesystem::path& folder) {
     auto plan = scenario::signal_plan(scenario_);
     if (!plan) return plan.error();
-    controller_.emplace(std::move(plan).value(), protocol_.signal_promise);
+    actuation_ = scenario::actuation(scenario_.message());
+    controller_.emplace(std::move(plan).value(), protocol_.signal_promise, actuation_);
     const auto config = engine_config(scenario_);
     if (!config) return config.error();
     engine_.emplace(config.value());
+    if (replays_) engine_->replay(log_.computed);
     auto recorder = RecorderNode::create(scenario_, folder);
     if (!recorder) return recorder.error();
     recorder_.emplace(std::move(recorder).value());
@@ -50,6 +57,7 @@ class InProcessRun {
   Expected<Done> step(Step k) {
     if (auto done = follow_hearings(k); !done) return done;
     if (auto done = apply_directives(k); !done) return done;
+    if (auto done = hand_over_requests(k); !done) return done;
     SignalBatch batch;
     if (controller_->step(k, batch)) {
       recent_signals_.push_back(batch);
@@ -60,8 +68,7 @@ class InProcessRun {
       }
     }
     for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu) {
-      const bool heard = k > 0 && rsus_[rsu].node && rsus_[rsu].heard_from <= k && k < rsus_[rsu].heard_to;
-      heard_[rsu] = heard ? &rsus_[rsu].answer : nullptr;
+      heard_[rsu] = is_heard(rsus_[rsu], k) ? &rsus_[rsu].answer : nullptr;
     }
     if (auto done = engine_->step(k, engine_signal_.take(k), heard_, traffic_, air_); !done) return done;
     cars_ = traffic_.vehicle.size();
@@ -81,6 +88,21 @@ class InProcessRun {
     Step heard_to = kNever;  ///< ... until this one, not included
   };
 
+  /// Whether what an RSU said in step k - 1 is heard in step k.
+  static bool is_heard(const RsuLife& life, Step k) {
+    return k > 0 && life.node && life.heard_from <= k && k < life.heard_to;
+  }
+
+  /// The requests of step k - 1 to the controller.
+  Expected<Done> hand_over_requests(Step k) {
+    if (!actuation_) return Done{};
+    for (const RsuLife& life : rsus_) {
+      if (!is_heard(life, k)) continue;
+      if (auto done = controller_->hear(k, life.node->request()); !done) return done;
+    }
+    return Done{};
+  }
+
   Expected<Done> start(std::uint32_t rsu, std::uint32_t epoch) {
     const auto config = rsu_config(scenario_.message(), rsu);
     if (!config) return config.error();
@@ -88,6 +110,7 @@ class InProcessRun {
     if (!algorithm) return algorithm.error();
     RsuLife& life = rsus_[rsu];
     life.node.emplace(config.value(), std::move(algorithm).value());
+    life.node->measure_with(process::wall_s);
     life.signal = Edge<SignalBatch>(signal_timing(protocol_.signal_promise), epoch == 1);
     life.answer.epoch = epoch;
     return Done{};
@@ -142,7 +165,9 @@ class InProcessRun {
   scenario::Resolved scenario_;
   scenario::Protocol protocol_;
   scenario::DirectiveLog log_;
+  bool replays_;
   std::size_t next_directive_ = 0;
+  std::optional<Actuation> actuation_;
   std::optional<SignalControllerNode> controller_;
   std::optional<EngineNode> engine_;
   std::optional<RecorderNode> recorder_;
@@ -178,7 +203,7 @@ RunReport run_in_process(const RunRequest& request, const Listener& listener) {
   const bool stopped_in_log = log.stop.has_value();
   const auto folder = create_result(request);
   if (!folder) return refuse(process::kExitIo, folder.error());
-  InProcessRun run(request.scenario, std::move(log));
+  InProcessRun run(request.scenario, std::move(log), !request.replay.empty());
   if (auto done = run.build(folder.value()); !done) return refuse(process::kExitUsage, done.error());
 
   RunEnd end;

@@ -95,30 +95,39 @@ class Session {
     if (request_.start_paused) clock.emplace_back("--wait");
     if (!request_.stall_limit_s.empty()) clock.insert(clock.end(), {"--stall-limit", request_.stall_limit_s});
     if (!request_.replay.empty()) clock.insert(clock.end(), {"--replay-directives", request_.replay.string()});
-    if (request_.rsu == "wait") clock.insert(clock.end(), {"--forming-limit", "1000000"});
+    if (waits_for_somebody()) clock.insert(clock.end(), {"--forming-limit", "1000000"});
     if (auto done = member(std::string(kClockRole), "lukou-clock", clock); !done) return done;
-    if (auto done = member(std::string(kEngineRole), "lukou-traffic-engine", {}); !done) return done;
+    std::vector<std::string> engine;
+    if (!request_.replay.empty()) engine = {"--replay-directives", request_.replay.string()};
+    if (auto done = member(std::string(kEngineRole), "lukou-traffic-engine", engine); !done) return done;
     if (auto done = member(std::string(kControllerRole), "lukou-signal-controller", {}); !done) return done;
     if (auto done = member(std::string(kRecorderRole), "lukou-recorder", {"--out", folder_.string()}); !done)
       return done;
     for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu) {
       const std::string index = std::to_string(rsu);
-      if (request_.rsu == "wait") {
+      const std::string& started = rsu_program(request_, rsu);
+      if (started == "wait") {
         process::log_warning("start " + rsu_role(rsu) + " by hand: LUKOU_RUN=" + address_.run +
                              " LUKOU_DOMAIN=" + std::to_string(address_.domain) + " LUKOU_RSU=" + index + " " +
                              program("lukou-rsu").string() + (request_.watchdog ? "" : " --no-watchdog"));
-      } else if (request_.rsu.empty()) {
+      } else if (started.empty()) {
         if (auto done = member(rsu_role(rsu), "lukou-rsu", {"--index", index}); !done) return done;
       } else {
         auto variables = environment;
         variables.push_back("LUKOU_RSU=" + index);
         variables.push_back("PYTHONPATH=" + python_path());
         ChildSpec spec{
-            .role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + request_.rsu}, .environment = variables};
+            .role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + started}, .environment = variables};
         if (auto done = children_.start(spec); !done) return done;
       }
     }
     return Done{};
+  }
+
+  [[nodiscard]] bool waits_for_somebody() const {
+    for (std::uint32_t rsu = 0; rsu < protocol_.rsus; ++rsu)
+      if (rsu_program(request_, rsu) == "wait") return true;
+    return false;
   }
 
   void on_exit(const ChildExit& ended) {

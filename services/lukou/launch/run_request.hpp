@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -20,6 +21,7 @@ struct RunRequest {
   std::string pace = "max";
   std::filesystem::path out;  ///< empty: result/<stamp>-<pace>
   std::string rsu;            ///< "" = the shipped one, "wait" = started by hand, otherwise a command
+  std::map<std::uint32_t, std::string> rsu_of{};  ///< the same for single RSUs, by index
   bool start_paused = false;
   bool watchdog = true;
   std::string stall_limit_s;          ///< empty: the clock's default
@@ -28,6 +30,12 @@ struct RunRequest {
   ConsoleProcess* console = nullptr;  ///< shows the run; null: none
   std::optional<int> core;            ///< processor for the run's processes; empty: follows the domain id
 };
+
+/// What is started as RSU number `rsu`, as in RunRequest::rsu.
+inline const std::string& rsu_program(const RunRequest& request, std::uint32_t rsu) {
+  const auto own = request.rsu_of.find(rsu);
+  return own == request.rsu_of.end() ? request.rsu : own->second;
+}
 
 /// What happened.
 struct RunReport {

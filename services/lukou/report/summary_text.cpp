@@ -51,6 +51,21 @@ std::string stops_text(const Json& summary) {
   return text + "\n";
 }
 
+/// "requests: 900 asked, 880 accepted (12 deferred by min_green, 3 overruled by max_wait), 20 refused: 20 conflict"
+std::string requests_text(const Json& signals) {
+  std::string text = "requests: " + cell(signals["requests"]) + " asked, " + cell(signals["requests_accepted"]) +
+                     " accepted (" + cell(signals["requests_deferred"]["min_green"]) + " deferred by min_green, " +
+                     cell(signals["requests_overruled"]["max_wait"]) + " overruled by max_wait), " +
+                     cell(signals["requests_refused"]["total"]) + " refused";
+  const char* between = ": ";
+  for (const auto& [rule, count] : signals["requests_refused"].items()) {
+    if (rule == "total" || count == 0) continue;
+    text += between + cell(count) + " " + rule;
+    between = ", ";
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string summary_text(const launch::RunReport& report) {
@@ -77,6 +92,10 @@ std::string summary_text(const launch::RunReport& report) {
               cell(summary["advice_dropped"]["total"]) + " stale or heard twice";
     }
     text += "\n";
+    if (summary.contains("signals")) text += requests_text(summary["signals"]);
+    if (summary.contains("rsu_deadline_misses")) {
+      text += "computing: " + cell(summary["rsu_deadline_misses"]) + " steps took an RSU longer than 0.1 s\n";
+    }
     if (summary.contains("stops_by_cause")) text += stops_text(summary);
     text += "safety: " + cell(summary["collisions"]) + " collisions, " + cell(summary["reversals"]) + " reversals, " +
             cell(summary["red_crossings"]) + " crossings on red (cars that could not stop), least head distance " +

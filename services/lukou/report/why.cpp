@@ -130,6 +130,7 @@ class Answer {
         const bool row_of_its_own = fate != static_cast<int>(AdviceFate::kDuplicate);
         found = (row_of_its_own && knows(name(static_cast<AdviceFate>(fate)))) || found;
       }
+      found = knows(kDeadlineMissed) || found;
     } else {
       for (const std::string_view cause : kStopCauseNames) found = knows(cause) || found;
     }

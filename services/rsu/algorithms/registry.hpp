@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "common/core/expected.hpp"
+#include "services/rsu/algorithms/actuated.hpp"
 #include "services/rsu/algorithms/arrive_on_green.hpp"
+#include "services/rsu/algorithms/cv_phase.hpp"
 #include "services/rsu/algorithms/eco.hpp"
 #include "services/rsu/algorithms/glosa.hpp"
+#include "services/rsu/algorithms/max_pressure.hpp"
 #include "services/rsu/algorithms/platoon.hpp"
 #include "services/rsu/algorithms/speed_harmonisation.hpp"
 #include "services/rsu/sdk/rsu_algorithm.hpp"
@@ -17,10 +20,13 @@ namespace lukou {
 
 /// The parameters of every algorithm that ships with Lukou.
 struct AlgorithmParameters {
+  ActuatedParameters actuated;
   ArriveOnGreenParameters arrive_on_green;
+  CvPhaseParameters cv_phase;
   EcoParameters eco;
   GlosaParameters glosa;
   GlosaParameters glosa_queue{.approach = {}, .queue = QueueRules{}};
+  MaxPressureParameters max_pressure;
   PlatoonParameters platoon;
   SpeedHarmonisationParameters speed_harmonisation;
 };

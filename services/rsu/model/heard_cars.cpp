@@ -64,10 +64,9 @@ void HeardCars::arrange(Step now) {
   }
 }
 
-std::optional<ReportedPlace> HeardCars::place(TemporaryId id) const {
+const CarReport* HeardCars::report(TemporaryId id) const {
   const auto known = std::ranges::lower_bound(entries_, id, {}, [](const Entry& e) { return e.report.id; });
-  if (known == entries_.end() || known->report.id != id) return std::nullopt;
-  return known->report.place;
+  return known != entries_.end() && known->report.id == id ? &known->report : nullptr;
 }
 
 }  // namespace lukou

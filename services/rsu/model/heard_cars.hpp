@@ -36,8 +36,8 @@ class HeardCars {
   [[nodiscard]] std::span<const HeardCar> cars(Lane lane) const { return by_lane_[index(lane)]; }
   /// When a car last crossed the lane's stop line, between two reports by their distances.
   [[nodiscard]] std::optional<double> last_crossing_s(Lane lane) const { return last_crossing_s_[index(lane)]; }
-  /// The last reported place of a car on an approach.
-  [[nodiscard]] std::optional<ReportedPlace> place(TemporaryId id) const;
+  /// The last report of a car on an approach; nullptr without one. Valid until the next report.
+  [[nodiscard]] const CarReport* report(TemporaryId id) const;
 
  private:
   struct Entry {

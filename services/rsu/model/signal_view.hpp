@@ -28,6 +28,8 @@ class SignalView {
   /// no lane or no aspect.
   Expected<Done> take(const SignalNews& news);
   [[nodiscard]] bool covers(Step step) const { return promise_.covers(step); }
+  /// The last step whose heads are promised.
+  [[nodiscard]] Step promised_to() const { return promise_.end() - 1; }
   /// Goes on to a step. Requires that the promise covers it, and that steps do not go back.
   void advance(Step now);
 

@@ -47,7 +47,13 @@ int joined_run(int argc, char** argv, const MakeScenarioAlgorithm& make) {
   auto algorithm = make(config.value());
   if (!algorithm) return process::report_start(algorithm.error(), process::kExitUsage);
 
+  std::optional<bus::Writer<RequestBatch>> requests_out;
+  if (config.value().actuation) {
+    requests_out.emplace(member.participant());
+    member.faces(Topic::kRequest, *requests_out, true);
+  }
   RsuNode node(config.value(), std::move(algorithm).value());
+  node.measure_with(process::wall_s);
   // A returning RSU learns with its first grant which batches it begins with.
   const bool from_the_start = member.epoch() == 1;
   bool begun = from_the_start;
@@ -83,6 +89,7 @@ int joined_run(int argc, char** argv, const MakeScenarioAlgorithm& make) {
         }
         node.step(k, signal.take(k), *air.take(k), answer);
         roadside_out.write(answer, member.epoch());
+        if (requests_out) requests_out->write(node.request(), member.epoch());
       });
   return process::report_end(member.end());
 }

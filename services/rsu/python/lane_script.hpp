@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,7 +22,12 @@ struct LaneScript {
 /// Holds what a scripted view points to.
 class ScriptedView {
  public:
-  ScriptedView(const MapView& map, Step now, std::map<std::string, LaneScript> lanes) : lanes_(std::move(lanes)) {
+  ScriptedView(const MapView& map, Step now, std::map<std::string, LaneScript> lanes,
+               const std::optional<Actuation>& actuation)
+      : lanes_(std::move(lanes)) {
+    view_.actuation = actuation;
+    view_.promised_to = now;
+    view_.request_acts = now + 11;  // with the default promise
     view_.step = now;
     view_.time_s = time_s(now);
     view_.map = map;

@@ -31,6 +31,22 @@ class MapView:
     def approach_length_m(self) -> float:
         """From the entrance to the stop line."""
 
+class Actuation:
+    """What the signal controller keeps whatever an RSU asks for."""
+
+    def __init__(
+        self, *, min_green_s: float = 8.0, yellow_s: float = 3.0, all_red_s: float = 1.0, max_wait_s: float = 120.0
+    ) -> None: ...
+    @property
+    def min_green_s(self) -> float: ...
+    @property
+    def yellow_s(self) -> float: ...
+    @property
+    def all_red_s(self) -> float: ...
+    @property
+    def max_wait_s(self) -> float:
+        """A lane that has been red for longer comes before every request."""
+
 class RsuSetup:
     """What an RSU knows before its first step."""
 
@@ -124,6 +140,14 @@ class LaneView:
     def green_windows(self) -> list[GreenWindow]: ...
     def green_at_or_after(self, time_s: float, tail_s: float = 0.0) -> Optional[GreenWindow]: ...
     def standing_queue(self, standing_mps: float = ...) -> QueueEstimate: ...
+    def seen_cars(self) -> list[SeenCar]:
+        """The cars that were heard or sensed, front to back, each once: reports less than 3 m apart are of one car."""
+
+class SeenCar:
+    @property
+    def distance_m(self) -> float: ...
+    @property
+    def speed_mps(self) -> float: ...
 
 class CarTable:
     """The heard cars of all lanes as arrays of equal length, lane after lane, front to back."""
@@ -154,6 +178,17 @@ class RsuView:
     @property
     def lanes(self) -> list[LaneView]: ...
     @property
+    def actuation(self) -> Optional[Actuation]:
+        """None: the controller runs a fixed plan and refuses every request."""
+    @property
+    def promised_to_s(self) -> float:
+        """Up to this time the RSU knows the heads for certain; a request acts later."""
+    @property
+    def request_acts_s(self) -> float:
+        """From then on a request of this step can change the heads."""
+    def promised_green(self) -> list[str]:
+        """The lanes whose heads show green then."""
+    @property
     def cars(self) -> CarTable: ...
 
 class Advice:
@@ -164,9 +199,21 @@ class Advice:
     @property
     def acceleration_mps2(self) -> Optional[float]: ...
     @property
+    def segments(self) -> Optional[list[tuple[float, float]]]:
+        """Of a profile: (seconds, m/s2) one after the other."""
+    @property
+    def speed_mps(self) -> Optional[float]:
+        """Of an advised speed."""
+    @property
     def lifetime_s(self) -> Optional[float]: ...
     @property
     def binding(self) -> Optional[Binding]: ...
+
+class SignalRequest:
+    @property
+    def lanes(self) -> list[str]: ...
+    @property
+    def lifetime_s(self) -> float: ...
 
 class RsuAnswer:
     """What an algorithm asks for in one step. Advice that no message can carry is refused and counted, never bent."""
@@ -181,7 +228,19 @@ class RsuAnswer:
         lifetime_s: float = 0.5,
         binding: Binding = Binding.GUARD,
     ) -> None: ...
+    def advise_profile(
+        self, car: int, segments: Sequence[tuple[float, float]], binding: Binding = Binding.GUARD
+    ) -> None:
+        """Accelerations one after the other, from now on: (seconds, m/s2). At most 32."""
+    def advise_speed(
+        self, car: int, speed_mps: float, lifetime_s: float = 0.5, binding: Binding = Binding.GUARD
+    ) -> None:
+        """The car's own unit makes for this speed."""
+    def lane_speed(self, lane: str, speed_mps: float, lifetime_s: float = 0.5) -> None:
+        """Cars on this lane that hear it do not wish to drive faster, as long as they drive on their own."""
     def release(self, car: int) -> None: ...
+    def request_green(self, lanes: Sequence[str], lifetime_s: float) -> None:
+        """Wants exactly these lanes green from now on until the lifetime ends or a newer request comes."""
 
 class RsuAlgorithm:
     def __init__(self) -> None: ...
@@ -193,6 +252,24 @@ def time_to_line_s(distance_m: float, speed_mps: float, acceleration_mps2: float
 
 def arrival_acceleration_mps2(distance_m: float, speed_mps: float, time_s: float) -> Optional[float]:
     """The constant acceleration that brings a car to the line in exactly time_s; None if it would have to roll back."""
+
+def smoothest_arrival(
+    distance_m: float, speed_mps: float, time_s: float, end_speed_mps: Optional[float] = None
+) -> tuple[float, float]:
+    """The arrival with the least integral of a^2: (acceleration now [m/s2], its change [m/s3]). ValueError: time_s <= 0."""
+
+def cruise_after_braking_mps(
+    distance_m: float, speed_mps: float, time_s: float, braking_mps2: float
+) -> Optional[float]:
+    """The speed to brake to, then hold, to arrive in time; None if it would be late without braking, or have to stand."""
+
+def cruise_after_speeding_up_mps(
+    distance_m: float, speed_mps: float, time_s: float, acceleration_mps2: float
+) -> Optional[float]:
+    """The speed to speed up to, then hold, to arrive in time; None if it would be early without, or late even so."""
+
+def has_hard_conflict(lanes: Sequence[str]) -> bool:
+    """Whether two of the lanes cross: they can never be green together."""
 
 def carriable_mps2(wanted_mps2: float, limit_mps2: float) -> float:
     """The nearest value that every car takes and a message carries: within the limit, towards zero to 0.01 m/s2."""
@@ -211,9 +288,24 @@ class LaneScript:
     ) -> None: ...
 
 def answer_of(
-    algorithm: RsuAlgorithm, setup: RsuSetup, *, time_s: float = 0.0, lanes: Mapping[str, LaneScript]
+    algorithm: RsuAlgorithm,
+    setup: RsuSetup,
+    *,
+    time_s: float = 0.0,
+    lanes: Mapping[str, LaneScript],
+    actuation: Optional[Actuation] = None,
 ) -> list[Advice]:
     """What the algorithm says to scripted lanes: for tests, without a run."""
+
+def request_of(
+    algorithm: RsuAlgorithm,
+    setup: RsuSetup,
+    *,
+    time_s: float = 0.0,
+    lanes: Mapping[str, LaneScript],
+    actuation: Optional[Actuation] = None,
+) -> Optional[SignalRequest]:
+    """What the algorithm asks of the signals; the heads are promised as far as time_s."""
 
 def run_rsu(make: Callable[[RsuSetup], RsuAlgorithm]) -> int:
     """Takes part in the run that `lukou run --rsu` started this program for; returns the exit code."""

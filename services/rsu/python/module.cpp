@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "services/rsu/process/run_rsu.hpp"
+#include "services/rsu/python/helpers.hpp"
 #include "services/rsu/python/lane_script.hpp"
 #include "services/rsu/sdk/planning.hpp"
+#include "services/rsu/sdk/seen_cars.hpp"
 
 // The SDK for Python: the same words as in C++ (services/rsu/sdk), described for people in lukou.pyi. The loop stays in
 // C++; Python's lock is held during on_step alone.
@@ -83,6 +85,72 @@ void advise_all(RsuAnswer& answer, const py::array_t<std::uint64_t, py::array::f
   }
 }
 
+LaneSet lanes_named(const std::vector<std::string>& names) {
+  LaneSet lanes;
+  for (const std::string& lane_name : names) {
+    const auto lane = lane_named(lane_name);
+    if (!lane) throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
+    lanes.insert(*lane);
+  }
+  return lanes;
+}
+
+std::vector<std::string> names_of(LaneSet lanes) {
+  std::vector<std::string> names;
+  for (const Lane lane : lanes) names.emplace_back(name(lane));
+  return names;
+}
+
+void request_green(RsuAnswer& answer, const std::vector<std::string>& lanes, double lifetime_s) {
+  answer.request_green(lanes_named(lanes), step_at_or_after(lifetime_s));
+}
+
+/// As in a test or a user's algorithm: (seconds, m/s2) one after the other.
+using Segments = std::vector<std::pair<double, double>>;
+
+void advise_profile(RsuAnswer& answer, std::uint64_t car, const Segments& segments, Binding binding) {
+  AccelerationProfile profile{.segments = {}, .binding = binding};
+  for (const auto& [duration_s, acceleration_mps2] : segments) {
+    profile.segments.push_back({step_at_or_after(duration_s), acceleration_mps2});
+  }
+  answer.advise_profile(static_cast<TemporaryId>(car), std::move(profile));
+}
+
+void advise_speed(RsuAnswer& answer, std::uint64_t car, double speed_mps, double lifetime_s, Binding binding) {
+  answer.advise_speed(static_cast<TemporaryId>(car),
+                      {.speed_mps = speed_mps, .lifetime = step_at_or_after(lifetime_s), .binding = binding});
+}
+
+void lane_speed(RsuAnswer& answer, const std::string& lane_name, double speed_mps, double lifetime_s) {
+  const auto lane = lane_named(lane_name);
+  if (!lane) throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
+  answer.lane_speed(*lane, speed_mps, step_at_or_after(lifetime_s));
+}
+
+std::optional<Segments> segments_of(const RsuAnswer::Item& item) {
+  if (!item.profile) return std::nullopt;
+  Segments segments;
+  for (const AccelerationSegment& segment : item.profile->segments) {
+    segments.emplace_back(time_s(segment.duration), segment.acceleration_mps2);
+  }
+  return segments;
+}
+
+std::optional<double> lifetime_of(const RsuAnswer::Item& item) {
+  if (item.advice) return time_s(item.advice->lifetime);
+  if (item.speed) return time_s(item.speed->lifetime);
+  if (!item.profile) return std::nullopt;
+  Step life = 0;
+  for (const AccelerationSegment& segment : item.profile->segments) life += segment.duration;
+  return time_s(life);
+}
+
+std::optional<Binding> binding_of(const RsuAnswer::Item& item) {
+  if (item.advice) return item.advice->binding;
+  if (item.speed) return item.speed->binding;
+  return item.profile ? std::optional(item.profile->binding) : std::nullopt;
+}
+
 /// What a Python class inherits from.
 class PyAlgorithm : public RsuAlgorithm {
  public:
@@ -129,12 +197,24 @@ int run(const py::function& make, std::vector<std::string> arguments) {
   });
 }
 
-std::vector<RsuAnswer::Item> answer_of(RsuAlgorithm& algorithm, const RsuSetup& setup, double now_s,
-                                       const std::map<std::string, LaneScript>& lanes) {
-  ScriptedView scripted(setup.map, step_at_or_after(now_s), lanes);
+RsuAnswer whole_answer(RsuAlgorithm& algorithm, const RsuSetup& setup, double now_s,
+                       const std::map<std::string, LaneScript>& lanes, const std::optional<Actuation>& actuation) {
+  ScriptedView scripted(setup.map, step_at_or_after(now_s), lanes, actuation);
   RsuAnswer answer;
   algorithm.on_step(scripted.view(), answer);
-  return answer.items();
+  return answer;
+}
+
+std::vector<RsuAnswer::Item> answer_of(RsuAlgorithm& algorithm, const RsuSetup& setup, double now_s,
+                                       const std::map<std::string, LaneScript>& lanes,
+                                       const std::optional<Actuation>& actuation) {
+  return whole_answer(algorithm, setup, now_s, lanes, actuation).items();
+}
+
+std::optional<SignalRequest> request_of(RsuAlgorithm& algorithm, const RsuSetup& setup, double now_s,
+                                        const std::map<std::string, LaneScript>& lanes,
+                                        const std::optional<Actuation>& actuation) {
+  return whole_answer(algorithm, setup, now_s, lanes, actuation).request();
 }
 
 }  // namespace
@@ -151,6 +231,17 @@ PYBIND11_MODULE(lukou, m) {
   py::class_<MapView>(m, "MapView")
       .def_readonly("speed_limit_mps", &MapView::speed_limit_mps)
       .def_readonly("approach_length_m", &MapView::approach_length_m);
+  py::class_<Actuation>(m, "Actuation")
+      .def(py::init([](double min_green_s, double yellow_s, double all_red_s, double max_wait_s) {
+             return Actuation{step_at_or_after(min_green_s), step_at_or_after(yellow_s), step_at_or_after(all_red_s),
+                              step_at_or_after(max_wait_s)};
+           }),
+           py::kw_only(), py::arg("min_green_s") = 8.0, py::arg("yellow_s") = 3.0, py::arg("all_red_s") = 1.0,
+           py::arg("max_wait_s") = 120.0)
+      .def_property_readonly("min_green_s", [](const Actuation& rules) { return time_s(rules.min_green); })
+      .def_property_readonly("yellow_s", [](const Actuation& rules) { return time_s(rules.yellow); })
+      .def_property_readonly("all_red_s", [](const Actuation& rules) { return time_s(rules.all_red); })
+      .def_property_readonly("max_wait_s", [](const Actuation& rules) { return time_s(rules.max_wait); });
   py::class_<RsuSetup>(m, "RsuSetup")
       .def(py::init(
                [](std::uint32_t index, double speed_limit_mps, double approach_length_m, double acceleration_max_mps2) {
@@ -231,10 +322,19 @@ PYBIND11_MODULE(lukou, m) {
           "green_at_or_after",
           [](const PyLane& lane, double at_s, double tail_s) { return green_at_or_after(lane.get(), at_s, tail_s); },
           py::arg("time_s"), py::arg("tail_s") = 0.0)
+      .def("seen_cars",
+           [](const PyLane& lane) {
+             std::vector<SeenCar> cars;
+             seen_cars(lane.get(), cars);
+             return cars;
+           })
       .def(
           "standing_queue",
           [](const PyLane& lane, double standing_mps) { return standing_queue(lane.get(), standing_mps); },
           py::arg("standing_mps") = 5.0 / 3.6);
+  py::class_<SeenCar>(m, "SeenCar")
+      .def_readonly("distance_m", &SeenCar::distance_m)
+      .def_readonly("speed_mps", &SeenCar::speed_mps);
   py::class_<CarTable>(m, "CarTable")
       .def_readonly("id", &CarTable::id)
       .def_readonly("lane", &CarTable::lane)
@@ -246,6 +346,11 @@ PYBIND11_MODULE(lukou, m) {
       .def_property_readonly("step", [](const PyView& view) { return view.frame->get().step; })
       .def_property_readonly("time_s", [](const PyView& view) { return view.frame->get().time_s; })
       .def_property_readonly("map", [](const PyView& view) { return view.frame->get().map; })
+      .def_property_readonly("actuation", [](const PyView& view) { return view.frame->get().actuation; })
+      .def_property_readonly("promised_to_s", [](const PyView& view) { return time_s(view.frame->get().promised_to); })
+      .def_property_readonly("request_acts_s",
+                             [](const PyView& view) { return time_s(view.frame->get().request_acts); })
+      .def("promised_green", [](const PyView& view) { return names_of(promised_green(view.frame->get())); })
       .def_property_readonly("cars", [](const PyView& view) { return CarTable(view.frame->get()); })
       .def_property_readonly("lanes", [](const PyView& view) {
         std::vector<PyLane> lanes;
@@ -255,31 +360,37 @@ PYBIND11_MODULE(lukou, m) {
 
   py::class_<RsuAnswer::Item>(m, "Advice")
       .def_property_readonly("car", [](const RsuAnswer::Item& item) { return static_cast<std::uint64_t>(item.car); })
-      .def_property_readonly("release", [](const RsuAnswer::Item& item) { return !item.advice.has_value(); })
+      .def_property_readonly("release", &RsuAnswer::Item::is_release)
       .def_property_readonly("acceleration_mps2",
                              [](const RsuAnswer::Item& item) {
                                return item.advice ? std::optional(item.advice->acceleration_mps2) : std::nullopt;
                              })
-      .def_property_readonly("lifetime_s",
-                             [](const RsuAnswer::Item& item) {
-                               return item.advice ? std::optional(time_s(item.advice->lifetime)) : std::nullopt;
-                             })
-      .def_property_readonly("binding", [](const RsuAnswer::Item& item) {
-        return item.advice ? std::optional(item.advice->binding) : std::nullopt;
-      });
+      .def_property_readonly("segments", &segments_of)
+      .def_property_readonly(
+          "speed_mps",
+          [](const RsuAnswer::Item& item) { return item.speed ? std::optional(item.speed->speed_mps) : std::nullopt; })
+      .def_property_readonly("lifetime_s", &lifetime_of)
+      .def_property_readonly("binding", &binding_of);
   py::class_<RsuAnswer>(m, "RsuAnswer")
       .def("advise", &advise, py::arg("car"), py::arg("acceleration_mps2"), py::arg("lifetime_s") = 0.5,
            py::arg("binding") = Binding::kGuard)
       .def("advise_all", &advise_all, py::arg("cars"), py::arg("accelerations_mps2"), py::arg("lifetime_s") = 0.5,
            py::arg("binding") = Binding::kGuard)
-      .def("release", [](RsuAnswer& answer, std::uint64_t car) { answer.release(static_cast<TemporaryId>(car)); });
+      .def("advise_profile", &advise_profile, py::arg("car"), py::arg("segments"), py::arg("binding") = Binding::kGuard)
+      .def("advise_speed", &advise_speed, py::arg("car"), py::arg("speed_mps"), py::arg("lifetime_s") = 0.5,
+           py::arg("binding") = Binding::kGuard)
+      .def("lane_speed", &lane_speed, py::arg("lane"), py::arg("speed_mps"), py::arg("lifetime_s") = 0.5)
+      .def("release", [](RsuAnswer& answer, std::uint64_t car) { answer.release(static_cast<TemporaryId>(car)); })
+      .def("request_green", &request_green, py::arg("lanes"), py::arg("lifetime_s"));
+  py::class_<SignalRequest>(m, "SignalRequest")
+      .def_property_readonly("lanes", [](const SignalRequest& request) { return names_of(request.green); })
+      .def_property_readonly("lifetime_s", [](const SignalRequest& request) { return time_s(request.lifetime); });
   py::class_<RsuAlgorithm, PyAlgorithm>(m, "RsuAlgorithm").def(py::init<>());
 
-  m.def("time_to_line_s", &time_to_line_s, py::arg("distance_m"), py::arg("speed_mps"), py::arg("acceleration_mps2"),
-        py::arg("cruise_mps"));
-  m.def("arrival_acceleration_mps2", &arrival_acceleration_mps2, py::arg("distance_m"), py::arg("speed_mps"),
-        py::arg("time_s"));
-  m.def("carriable_mps2", &carriable_mps2, py::arg("wanted_mps2"), py::arg("limit_mps2"));
+  bind_helpers(m);
+  m.def(
+      "has_hard_conflict", [](const std::vector<std::string>& lanes) { return has_hard_conflict(lanes_named(lanes)); },
+      py::arg("lanes"));
 
   py::class_<LaneScript>(m, "LaneScript")
       .def(py::init([](std::vector<HeardCar> cars, std::vector<SensedCar> sensed, Aspect aspect, double aspect_since_s,
@@ -292,7 +403,9 @@ PYBIND11_MODULE(lukou, m) {
            py::arg("aspect") = Aspect::kRed, py::arg("aspect_since_s") = 0.0,
            py::arg("changes") = std::vector<std::pair<Aspect, double>>{});
   m.def("answer_of", &answer_of, py::arg("algorithm"), py::arg("setup"), py::kw_only(), py::arg("time_s") = 0.0,
-        py::arg("lanes"));
+        py::arg("lanes"), py::arg("actuation") = std::nullopt);
+  m.def("request_of", &request_of, py::arg("algorithm"), py::arg("setup"), py::kw_only(), py::arg("time_s") = 0.0,
+        py::arg("lanes"), py::arg("actuation") = std::nullopt);
   m.def(
       "run_rsu",
       [](const py::function& make) {

@@ -42,6 +42,23 @@ std::optional<GreenWindow> green_at_or_after(const LaneView& lane, double time_s
   return find_green(lane, [&](const GreenWindow& green) { return time_s <= green.end_s + tail_s; });
 }
 
+Aspect aspect_at(const LaneView& lane, Step step) {
+  Aspect aspect = lane.aspect;
+  for (const SignalChange& change : lane.changes) {
+    if (change.step > step) break;
+    aspect = change.aspect;
+  }
+  return aspect;
+}
+
+LaneSet promised_green(const RsuView& view) {
+  LaneSet green;
+  for (const Lane lane : kAllLanes) {
+    if (aspect_at(view.lanes[index(lane)], view.promised_to) == Aspect::kGreen) green.insert(lane);
+  }
+  return green;
+}
+
 double time_to_line_s(double distance_m, double speed_mps, double acceleration_mps2, double cruise_mps) {
   LUKOU_EXPECT(acceleration_mps2 > 0.0);
   if (distance_m <= 0.0) return 0.0;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "common/intersection/conflicts.hpp"
+#include "common/intersection/lane_set.hpp"
 #include "services/rsu/sdk/rsu_view.hpp"
 
 namespace lukou {
@@ -21,6 +23,12 @@ std::vector<GreenWindow> green_windows(const LaneView& lane);
 /// The first green that a car may use which reaches the line at `time_s` or waits there from then on: it ends at most
 /// `tail_s` before. Empty if no green is known that late.
 std::optional<GreenWindow> green_at_or_after(const LaneView& lane, double time_s, double tail_s = 0.0);
+
+/// What the lane's head will show at `step` >= now, as far as the RSU knows: what the last known change up to then
+/// leads to. Certain up to RsuView::promised_to.
+Aspect aspect_at(const LaneView& lane, Step step);
+/// The lanes whose heads show green at the last step that is known for certain, RsuView::promised_to.
+LaneSet promised_green(const RsuView& view);
 
 /// Time to the line of a car with nobody ahead [s], which speeds up at `acceleration_mps2` > 0 until it drives at
 /// `cruise_mps`, then holds that; one that is faster keeps its speed. Infinite if it never gets there.

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "common/core/step.hpp"
+#include "common/intersection/actuation.hpp"
 #include "common/intersection/lane.hpp"
 #include "common/intersection/signal_plan.hpp"
 
@@ -66,6 +67,12 @@ struct RsuView {
   Step step = 0;
   double time_s = 0.0;
   MapView map;
+  /// What the controller keeps whatever an RSU asks for. Empty: it runs a fixed plan and refuses every request.
+  std::optional<Actuation> actuation;
+  Step promised_to = 0;  ///< the last step whose heads are known for certain
+  /// The first step whose heads a request of this step can change: step + 1 + run.signal_promise_steps. What they show
+  /// between promised_to and then follows from earlier requests.
+  Step request_acts = 0;
   std::array<LaneView, kLanes> lanes;  ///< WL WC WR SL SC SR EL EC ER NL NC NR
 };
 

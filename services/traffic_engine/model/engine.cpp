@@ -33,6 +33,9 @@ void Engine::step(Step step, const Heads& heads, std::span<const Advice> advice)
                         .rsu_lost_after = step_at_or_after(parameters_.unit.rsu_lost_after_s),
                         .reaction = step_at_or_after(parameters_.compliance.reaction_s),
                         .threshold_mps2 = parameters_.compliance.threshold_mps2,
+                        .speed_gain_time_s = parameters_.unit.speed_gain_time_s,
+                        .speed_acceleration_mps2 = parameters_.unit.speed_acceleration_mps2,
+                        .speed_deceleration_mps2 = parameters_.unit.speed_deceleration_mps2,
                         .everybody = heard_by_all_};
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) lanes_[lane].advance(step, heads[lane], rules, events_);
   forget_departed();
@@ -44,14 +47,17 @@ void Engine::hear(const Advice& advice, Step step) {
   LUKOU_EXPECT(advice.issued < step);
   const auto refuse = [&](std::uint32_t vehicle, AdviceOutcome reason) {
     if (advice.release) return;
-    events_.outcomes.push_back(
-        {vehicle, advice.rsu, advice.sequence, reason, false, advice.issued, advice.acceleration_mps2});
+    events_.outcomes.push_back(outcome_of(advice, reason, vehicle));
   };
   Car* car = car_of(advice.target);
   if (car == nullptr) return refuse(kNoVehicle, AdviceOutcome::kUnknownVehicle);
-  if (!advice.release) {
+  if (!advice.release && advice.kind <= AdviceKind::kProfile) {
+    double largest_mps2 = std::abs(advice.acceleration_mps2);
+    for (const LaterCommand& later : advice.later) {
+      largest_mps2 = std::max(largest_mps2, std::abs(later.acceleration_mps2));
+    }
     if (!std::isfinite(advice.acceleration_mps2)) return refuse(car->vehicle, AdviceOutcome::kMalformed);
-    if (std::abs(advice.acceleration_mps2) > parameters_.vehicles.acceleration_max_mps2) {
+    if (largest_mps2 > parameters_.vehicles.acceleration_max_mps2) {
       return refuse(car->vehicle, AdviceOutcome::kOutOfLimit);
     }
   }
@@ -72,7 +78,8 @@ void Engine::hear_rsu(std::uint64_t temporary_id, std::uint32_t rsu, Step heard)
 }
 
 void Engine::miss(const Advice& advice, std::uint8_t fate) {
-  Car* car = advice.release ? nullptr : car_of(advice.target);
+  const bool asks_the_car = !advice.release && advice.kind != AdviceKind::kLaneSpeed;
+  Car* car = asks_the_car ? car_of(advice.target) : nullptr;
   if (car != nullptr && order_of(advice) > car->missed.order) car->missed = {order_of(advice), fate};
 }
 

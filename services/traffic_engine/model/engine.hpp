@@ -42,7 +42,7 @@ class Engine {
   /// unit on the road, or one.
   void hear_rsu(std::uint32_t rsu, Step heard);
   void hear_rsu(std::uint64_t temporary_id, std::uint32_t rsu, Step heard);
-  /// An advice will not reach its car; `fate` as on the bus.
+  /// An advice will not reach its car; `fate` as on the bus. A speed for the lane is nothing that a car misses.
   void miss(const Advice& advice, std::uint8_t fate);
 
   /// From the next step on. Other draws stay as they are.

@@ -86,7 +86,7 @@ void LaneTraffic::advance(Step step, Aspect aspect, const UnitRules& rules, Lane
   bool target_given = green;
   for (std::size_t place = 0; place < cars_.size(); ++place) {
     Car& car = cars_[place];
-    car.unit.advance(step, rules, car.vehicle, events.outcomes);
+    car.unit.advance(step, car.motion.speed_mps, rules, car.vehicle, events.outcomes);
     View view{.step = step,
               .ahead = nullptr,
               .moved_ahead = nullptr,
@@ -192,7 +192,7 @@ double LaneTraffic::move_in_block(Car& car, const View& view, double block_mps, 
 
 void LaneTraffic::move_freely(Car& car, std::size_t place, const View& view, LaneEvents& events) {
   Motion& motion = car.motion;
-  const Wanted want = wanted(car, place, view);
+  const Wanted want = wanted(car, place, view, events);
   car.noise_mps2 = 0.0;
   if (motion.speed_mps > 0.0 && parameters_.vehicles.actuation_noise_mps2 > 0.0) {
     car.noise_mps2 =
@@ -226,14 +226,21 @@ void LaneTraffic::move_freely(Car& car, std::size_t place, const View& view, Lan
   motion.speed_mps = next_mps;
 }
 
-LaneTraffic::Wanted LaneTraffic::wanted(Car& car, std::size_t place, const View& view) {
-  const double following_mps2 = view.ahead != nullptr
-                                    ? law_.following_mps2(car.motion, car.desired_speed_mps, *view.ahead)
-                                    : law_.free_mps2(car.motion.speed_mps, car.desired_speed_mps);
+double LaneTraffic::wished_mps(Car& car, LaneEvents& events) {
+  const double lane_mps = car.unit.lane_speed_mps();
+  if (lane_mps == std::numeric_limits<double>::infinity() || car.unit.in_force()) return car.desired_speed_mps;
+  car.unit.kept_to_lane_speed(car.vehicle, events.outcomes);
+  return std::min(lane_mps, car.desired_speed_mps);
+}
+
+LaneTraffic::Wanted LaneTraffic::wanted(Car& car, std::size_t place, const View& view, LaneEvents& events) {
+  const double wish_mps = wished_mps(car, events);
+  const double following_mps2 = view.ahead != nullptr ? law_.following_mps2(car.motion, wish_mps, *view.ahead)
+                                                      : law_.free_mps2(car.motion.speed_mps, wish_mps);
   double natural_mps2 = following_mps2;
   Decider decider = view.ahead != nullptr && following_mps2 <= 0.0 ? Decider::kCarAhead : Decider::kOwnWish;
   if (view.stop_target_m) {
-    const double braking_mps2 = law_.braking_to_mps2(car.motion, car.desired_speed_mps, *view.stop_target_m);
+    const double braking_mps2 = law_.braking_to_mps2(car.motion, wish_mps, *view.stop_target_m);
     if (braking_mps2 < natural_mps2) {
       natural_mps2 = braking_mps2;
       decider = Decider::kLight;
@@ -243,17 +250,17 @@ LaneTraffic::Wanted LaneTraffic::wanted(Car& car, std::size_t place, const View&
   car.commanded_mps2 = kNone;
   if (!car.unit.in_force()) {
     const double share = car.unit.fallback_share(view.step, view.fallback);
-    if (share > 0.0) natural_mps2 = faded(car, natural_mps2, share);
+    if (share > 0.0) natural_mps2 = faded(car, wish_mps, natural_mps2, share);
     return {natural_mps2, AdviceOutcome::kApplied, decider};
   }
   car.commanded_mps2 = car.unit.command_mps2();
   return commanded(car, view, following_mps2);
 }
 
-double LaneTraffic::faded(const Car& car, double natural_mps2, double share) const {
+double LaneTraffic::faded(const Car& car, double wish_mps, double natural_mps2, double share) const {
   const double mixed_mps2 = share * car.unit.last_acted_mps2() + (1.0 - share) * natural_mps2;
   // Who is hindered brakes at once, with what the laws of braking ask for: comfort alone may wait.
-  const bool hindered = natural_mps2 < law_.free_mps2(car.motion.speed_mps, car.desired_speed_mps);
+  const bool hindered = natural_mps2 < law_.free_mps2(car.motion.speed_mps, wish_mps);
   return hindered ? std::min(natural_mps2, mixed_mps2) : mixed_mps2;
 }
 

@@ -115,10 +115,12 @@ class LaneTraffic {
   /// Moves a car of the block to `block_mps`; the front one may be held back. Returns the speed that it got.
   double move_in_block(Car& car, const View& view, double block_mps, bool front, LaneEvents& events);
   void move_freely(Car& car, std::size_t place, const View& view, LaneEvents& events);
-  [[nodiscard]] Wanted wanted(Car& car, std::size_t place, const View& view);
+  /// The speed that the driver wishes to drive: at most the lane's, if the driver drives by itself.
+  [[nodiscard]] static double wished_mps(Car& car, LaneEvents& events);
+  [[nodiscard]] Wanted wanted(Car& car, std::size_t place, const View& view, LaneEvents& events);
   [[nodiscard]] Wanted commanded(const Car& car, const View& view, double following_mps2) const;
   /// What a driver wants while an advice that came to its end fades.
-  [[nodiscard]] double faded(const Car& car, double natural_mps2, double share) const;
+  [[nodiscard]] double faded(const Car& car, double wish_mps, double natural_mps2, double share) const;
   /// The natural acceleration that the driver's reaction time lets act now.
   double delayed(std::size_t place, double natural_mps2);
   [[nodiscard]] double guarded_mps(const Car& car, const View& view, double next_mps) const;

@@ -45,8 +45,11 @@ struct DrivingParameters {
 
 /// The units that hear advice.
 struct UnitParameters {
-  double fallback_s = 1.0;        ///< from the last command to natural driving when an advice ends; 0 = at once
-  double rsu_lost_after_s = 2.0;  ///< having heard nothing of the RSU for this long ends its advice
+  double fallback_s = 1.0;               ///< from the last command to natural driving when an advice ends; 0 = at once
+  double rsu_lost_after_s = 2.0;         ///< having heard nothing of the RSU for this long ends its advice
+  double speed_gain_time_s = 2.0;        ///< an advised speed becomes the acceleration (wanted - own) / this ...
+  double speed_acceleration_mps2 = 2.0;  ///< ... at most this
+  double speed_deceleration_mps2 = 1.5;  ///< ... and at least minus this
 };
 
 /// Who follows advice, of the cars with a unit; the others are automated and follow exactly.

@@ -6,3 +6,4 @@
 #include "services/rsu/sdk/arrival.hpp"
 #include "services/rsu/sdk/planning.hpp"
 #include "services/rsu/sdk/rsu_algorithm.hpp"
+#include "services/rsu/sdk/seen_cars.hpp"

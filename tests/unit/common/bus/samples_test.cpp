@@ -33,13 +33,19 @@ auto members(ReceptionReport& r) {
 }
 
 auto members(RoadsideBatch& b) {
-  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception] = b;
-  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers), members(frames), members(reception));
+  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception, requests, computing] = b;
+  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers, requests, computing), members(frames),
+                        members(reception));
+}
+
+auto members(RequestBatch& b) {
+  auto& [rsu, epoch, step, lanes, lifetime] = b;
+  return std::tie(rsu, epoch, step, lanes, lifetime);
 }
 
 auto members(SignalBatch& b) {
-  auto& [step, first, heads, lane, aspect, at] = b;
-  return std::tie(step, first, heads, lane, aspect, at);
+  auto& [step, first, heads, lane, aspect, at, request_step, asked, rsu, lanes, outcome] = b;
+  return std::tie(step, first, heads, lane, aspect, at, request_step, asked, rsu, lanes, outcome);
 }
 
 auto members(TrafficBatch& b) {
@@ -47,13 +53,13 @@ auto members(TrafficBatch& b) {
          missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped,
          entered_speed, entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
          fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded, answers, guard, overflow,
-         heard, reception] = b;
+         heard, requests, reception, fate_kind, fate_speed, computing] = b;
   return std::tuple_cat(
       std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance,
                bound_by, missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane,
                entered_equipped, entered_speed, entered_desired, crossed, crossed_time, crossed_aspect,
                crossed_committed, left, left_time, fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued,
-               fate_commanded, answers, guard, overflow, heard),
+               fate_commanded, answers, guard, overflow, heard, requests, fate_kind, fate_speed, computing),
       members(reception));
 }
 
@@ -163,6 +169,11 @@ TEST(Samples, CarryEveryColumnOfRoadside) {
   // The epoch is the writer's word, as for every lockstep topic.
   const std::uint32_t epoch = filled<RoadsideBatch>().epoch;
   expect_carried_whole<RoadsideBatch>([epoch](lukou_bus_Roadside& sample) { sample.epoch = epoch; });
+}
+
+TEST(Samples, CarryEveryColumnOfRequest) {
+  const std::uint32_t epoch = filled<RequestBatch>().epoch;
+  expect_carried_whole<RequestBatch>([epoch](lukou_bus_Request& sample) { sample.epoch = epoch; });
 }
 
 TEST(Samples, CarryEveryColumnOfSignal) { expect_carried_whole<SignalBatch>(kUnsigned); }

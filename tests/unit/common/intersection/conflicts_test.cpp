@@ -121,5 +121,24 @@ TEST(ConflictsOfHeads, AreTheHardOnesThatShowGreenOrYellowTogether) {
   EXPECT_EQ(found.front().at, 7);
 }
 
+TEST(HardConflicts, AreTheCrossingStreams) {
+  // West straight on crosses both straight streams of the other axis and the left from the south; that from the north
+  // turns into an exit lane beside its own.
+  const LaneSet crossing = hard_conflicts(*lane_named("WC"));
+  for (const char* lane : {"SC", "NC", "SL"}) EXPECT_TRUE(crossing.contains(*lane_named(lane))) << lane;
+  for (const char* lane : {"WL", "WR", "EC", "ER", "EL", "NL"})
+    EXPECT_FALSE(crossing.contains(*lane_named(lane))) << lane;
+}
+
+TEST(HardConflicts, OfASetAreThoseOfItsLanes) {
+  const Lane wc = *lane_named("WC");
+  const Lane sl = *lane_named("SL");
+  EXPECT_EQ(hard_conflicts(LaneSet{wc, sl}), hard_conflicts(wc) | hard_conflicts(sl));
+  EXPECT_TRUE(has_hard_conflict({wc, sl}));
+  EXPECT_FALSE(has_hard_conflict({wc, *lane_named("EL")})) << "opposed left: permitted";
+  EXPECT_FALSE(has_hard_conflict({}));
+  EXPECT_TRUE(has_hard_conflict(kAllLanes));
+}
+
 }  // namespace
 }  // namespace lukou

@@ -36,6 +36,11 @@ TEST(Roster, WiresRoadAndRoadside) {
   EXPECT_EQ(who(reads, Topic::kSignal), "traffic-engine recorder rsu0 rsu12");
 }
 
+TEST(Roster, WiresRequestsForGreensFromTheRsusToTheController) {
+  EXPECT_EQ(who(writes, Topic::kRequest), "rsu0 rsu12");
+  EXPECT_EQ(who(reads, Topic::kRequest), "signal-controller");
+}
+
 TEST(Roster, LetsTheClockSpeakToAllAndAllToTheClock) {
   EXPECT_EQ(who(writes, Topic::kControl), "clock");
   EXPECT_EQ(who(reads, Topic::kUp), "clock");

@@ -18,7 +18,8 @@ class Log {
     batch_.entered_lane = {1};
     next(kNone);
   }
-  void fate(AdviceFate fate, std::uint32_t sequence, Step issued, bool again = false, std::uint32_t vehicle = 4) {
+  void fate(AdviceFate fate, std::uint32_t sequence, Step issued, bool again = false, std::uint32_t vehicle = 4,
+            AdviceKind kind = AdviceKind::kAcceleration) {
     batch_.fate_vehicle.push_back(vehicle);
     batch_.fate_rsu.push_back(0);
     batch_.fate_sequence.push_back(sequence);
@@ -26,6 +27,8 @@ class Log {
     batch_.fate_again.push_back(again ? 1 : 0);
     batch_.fate_issued.push_back(issued);
     batch_.fate_commanded_mps2.push_back(-0.5);
+    batch_.fate_kind.push_back(static_cast<std::uint8_t>(kind));
+    batch_.fate_speed_mps.push_back(kind == AdviceKind::kLaneSpeed ? 12.5 : kNone);
   }
   void next(double commanded_mps2, GuidanceState state = GuidanceState::kInForce) {
     batch_.step = step_++;
@@ -106,6 +109,23 @@ TEST(AdviceLedger, KeepsTheLastFateOfAnAdviceAndNoDuplicates) {
   EXPECT_EQ(rest[0].fate, "changed_guard");
   EXPECT_EQ(rest[0].settled, 2);
   EXPECT_EQ(rest[0].first_used, 1);
+}
+
+TEST(AdviceLedger, SettlesASpeedForTheLaneAtItsFirstUseBesideTheAdviceInForce) {
+  Log log;
+  log.fate(AdviceFate::kApplied, 7, 0);
+  log.next(-0.5);
+  log.fate(AdviceFate::kApplied, 8, 1, false, 4, AdviceKind::kLaneSpeed);
+  log.next(-0.5);
+  ASSERT_EQ(log.rows.size(), 1U);
+  EXPECT_EQ(log.rows[0].kind, "lane_speed");
+  EXPECT_EQ(log.rows[0].speed_mps, 12.5);
+  EXPECT_EQ(log.rows[0].first_used, 2);
+  EXPECT_FALSE(log.rows[0].last_used);
+  const auto rest = log.ledger().close();
+  ASSERT_EQ(rest.size(), 1U);
+  EXPECT_EQ(rest[0].sequence, 7U);
+  EXPECT_EQ(rest[0].kind, "acceleration");
 }
 
 }  // namespace

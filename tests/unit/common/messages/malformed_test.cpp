@@ -34,6 +34,19 @@ std::vector<Kind> kinds() {
   for (auto& lane : spat.lanes) lane = {{Aspect::kGreen, 0, 10}};
   Coordination rsc;
   rsc.vehicles = {{.vehicle = 1, .path = GuidedPath{.centre = {}, .acceleration_mps2 = 1.0, .lifetime_ms = 10}}};
+  Coordination path;
+  path.vehicles = {{.vehicle = 1,
+                    .path = GuidedPath{.acceleration_mps2 = -1.0,
+                                       .lifetime_ms = 300,
+                                       .later = {{.from_ms = 100, .acceleration_mps2 = 0.5},
+                                                 {.from_ms = 200, .acceleration_mps2 = 1.5}}}}};
+  Coordination speed;
+  speed.vehicles = {{.vehicle = 1, .path = GuidedPath{.lifetime_ms = 300, .speed_mps = 9.0}}};
+  Coordination lanes;
+  lanes.lanes = {{.lane = Lane{5}, .speed_mps = 9.0, .lifetime_ms = 300}};
+  const auto parses_as_rsc = [](const std::string& bytes) {
+    return v2x::RoadsideCoordination().ParseFromString(bytes);
+  };
   bsm.accuracy_m = 1.0;
   RoadsideSafety rsm;
   rsm.participants = {{.number = 1, .speed_mps = 3.0}};
@@ -55,7 +68,27 @@ std::vector<Kind> kinds() {
          const auto message = decode_rsc(bytes);
          return message.ok() && !message.value().vehicles.empty();
        },
-       [](const std::string& bytes) { return v2x::RoadsideCoordination().ParseFromString(bytes); }},
+       parses_as_rsc},
+      {bytes_of(one_frame(path)),
+       [](std::span<const std::uint8_t> bytes) {  // one with fewer points is whole, but not this one
+         const auto message = decode_rsc(bytes);
+         return message.ok() && !message.value().vehicles.empty() && message.value().vehicles[0].path &&
+                message.value().vehicles[0].path->later.size() == 2;
+       },
+       parses_as_rsc},
+      {bytes_of(one_frame(speed)),
+       [](std::span<const std::uint8_t> bytes) {
+         const auto message = decode_rsc(bytes);
+         return message.ok() && !message.value().vehicles.empty() && message.value().vehicles[0].path &&
+                message.value().vehicles[0].path->speed_mps.has_value();
+       },
+       parses_as_rsc},
+      {bytes_of(one_frame(lanes)),
+       [](std::span<const std::uint8_t> bytes) {
+         const auto message = decode_rsc(bytes);
+         return message.ok() && !message.value().lanes.empty();
+       },
+       parses_as_rsc},
   };
 }
 

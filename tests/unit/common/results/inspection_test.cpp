@@ -166,6 +166,7 @@ std::string stop_row(Step step) {
 TEST_F(Results, MayHoldTablesOfEvents) {
   write("stops.csv", stops_columns() + "\n" + stop_row(2) + stop_row(2) + stop_row(5));
   write("guidance.csv", guidance_columns() + "\n");
+  write("requests.csv", requests_columns() + "\n3,0.3,0,WC EC,accepted,\n");
   finish();
   EXPECT_EQ(faults(), "");
 }
@@ -188,10 +189,12 @@ TEST_F(Results, OfALostRecorderKeepTheEventsUpToTheLastStep) {
   shorten("road.csv", kLastRow);  // complete to step 4
   write("stops.csv", stops_columns() + "\n" + stop_row(2) + stop_row(4) + stop_row(5) + "5,0.5");
   write("guidance.csv", "");  // killed before the first row
+  write("requests.csv", requests_columns() + "\n4,0.4,0,WC,accepted,\n5,0.5,0,WC,refused,conflict\n");
   const auto manifest = repair(folder(), facts("lost:recorder"));
   ASSERT_TRUE(manifest.ok()) << manifest.error().text();
   EXPECT_EQ(content("stops.csv"), stops_columns() + "\n" + stop_row(2) + stop_row(4));
   EXPECT_EQ(content("guidance.csv"), guidance_columns() + "\n");
+  EXPECT_EQ(content("requests.csv"), requests_columns() + "\n4,0.4,0,WC,accepted,\n");
   EXPECT_EQ(faults(), "");
 }
 

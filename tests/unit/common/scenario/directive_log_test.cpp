@@ -35,6 +35,7 @@ TEST_F(DirectiveLogFile, ReadsBackWhatWasWritten) {
               {9000, "signals.plan={ cycle_s: 60 lane_plans { lanes: \"WL\" } }"}};
   log.hearings = {{0, 188, 0}, {0, 312, 2}, {1, 400, 0}};
   log.stop = 9500;
+  log.computed = {{.rsu = 0, .step = 7, .delay_ms = 3}, {.rsu = 1, .step = 7, .delay_ms = 130}};
   const auto read = loaded(text(log));
   ASSERT_TRUE(read.ok()) << read.error().text();
   ASSERT_EQ(read.value().sets.size(), log.sets.size());
@@ -49,6 +50,10 @@ TEST_F(DirectiveLogFile, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.value().hearings[i].epoch, log.hearings[i].epoch);
   }
   EXPECT_EQ(read.value().stop, 9500);
+  ASSERT_EQ(read.value().computed.size(), 2U);
+  EXPECT_EQ(read.value().computed[1].rsu, 1U);
+  EXPECT_EQ(read.value().computed[1].step, 7);
+  EXPECT_EQ(read.value().computed[1].delay_ms, 130U);
   EXPECT_EQ(text(read.value()), text(log)) << "the text is the same, byte for byte";
 }
 

@@ -17,7 +17,7 @@ class Shipped : public testing::Test {
 
 TEST_F(Shipped, ScenariosAllLoad) {
   const auto names = shipped_names();
-  EXPECT_EQ(names, (std::vector<std::string>{"paper", "saturated", "unguided"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"actuated", "paper", "saturated", "unguided"}));
   for (const std::string& name : names) {
     const auto result = load(name);
     EXPECT_TRUE(result.ok()) << result.error().text();

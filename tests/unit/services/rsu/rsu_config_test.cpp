@@ -27,6 +27,18 @@ scenario::Scenario two_rsus() {
   return from;
 }
 
+TEST(RsuConfig, KnowsWhatTheControllerKeepsIfItHearsRequests) {
+  scenario::Scenario from = two_rsus();
+  EXPECT_FALSE(rsu_config(from, 0).value().actuation);
+  scenario::Actuation& said = *from.mutable_signals()->mutable_actuation();
+  said.set_min_green_s(7.5);
+  said.set_yellow_s(4.0);
+  said.set_all_red_s(1.2);
+  said.set_max_wait_s(90.0);
+  EXPECT_EQ(rsu_config(from, 1).value().actuation,
+            (Actuation{.min_green = 75, .yellow = 40, .all_red = 12, .max_wait = 900}));
+}
+
 TEST(RsuConfig, SaysWhatTheScenarioSays) {
   const auto config = rsu_config(two_rsus(), 1);
   ASSERT_TRUE(config) << config.error().text();

@@ -7,6 +7,7 @@
 
 #include "common/messages/bsm.hpp"
 #include "common/messages/time_marks.hpp"
+#include "services/rsu/sdk/planning.hpp"
 #include "tests/unit/services/rsu/rsu_rig.hpp"
 
 namespace lukou {
@@ -49,6 +50,78 @@ TEST(RsuNode, ShowsItsAlgorithmWhatItHeard) {
   EXPECT_EQ(calls, 1);
   EXPECT_EQ(out.frames_heard, 2U);
   EXPECT_EQ(out.frames_malformed, 0U);
+}
+
+/// Asks twice in step 1.
+void ask_twice(const RsuView& heard, RsuAnswer& answer) {
+  if (heard.step != 1) return;
+  answer.request_green({static_cast<Lane>(3)}, 20);
+  answer.request_green({static_cast<Lane>(0), static_cast<Lane>(2)}, 50);
+}
+
+TEST(RsuNode, HandsOnTheLastRequestOfAStep) {
+  RsuConfig actuated = config();
+  actuated.actuation = Actuation{};
+  RsuNode node(actuated, std::make_unique<Scripted>(ask_twice));
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 3; ++k) {
+    node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
+    EXPECT_EQ(node.request().step, k);
+    EXPECT_EQ(node.request().lanes, k == 1 ? std::vector<std::uint16_t>{0b101} : std::vector<std::uint16_t>{});
+    EXPECT_EQ(node.request().lifetime, k == 1 ? std::vector<Step>{50} : std::vector<Step>{});
+    EXPECT_EQ(out.requests_refused, 0U);
+  }
+}
+
+TEST(RsuNode, CountsARequestThatAFixedPlanCannotHear) {
+  RsuNode node = node_with(ask_twice);
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 3; ++k) {
+    node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
+    EXPECT_TRUE(node.request().lanes.empty());
+    EXPECT_EQ(out.requests_refused, k == 1 ? 1U : 0U);
+  }
+}
+
+TEST(RsuNode, HoldsARequestBackForTheStepsThatItComputes) {
+  // 250 ms: the answer of step 1 is said after step 3 has begun, and its 50 steps of life have become 48.
+  RsuConfig slow = config();
+  slow.actuation = Actuation{};
+  slow.computing.declared_ms = 250;
+  RsuNode node(slow, std::make_unique<Scripted>([](const RsuView& heard, RsuAnswer& answer) {
+                 EXPECT_EQ(heard.request_acts, heard.step + 2 + 1 + 10);
+                 if (heard.step == 1) answer.request_green({static_cast<Lane>(0)}, 50);
+                 if (heard.step == 2) answer.request_green({static_cast<Lane>(1)}, 2);
+               }));
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 6; ++k) {
+    node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
+    EXPECT_EQ(node.request().lanes, k == 3 ? std::vector<std::uint16_t>{1} : std::vector<std::uint16_t>{}) << k;
+    EXPECT_EQ(node.request().lifetime, k == 3 ? std::vector<Step>{48} : std::vector<Step>{}) << k;
+  }
+}
+
+TEST(RsuNode, TellsItsAlgorithmHowFarTheHeadsArePromised) {
+  RsuConfig with_actuation = config();
+  with_actuation.actuation = Actuation{.min_green = 60};
+  RsuNode node(with_actuation, std::make_unique<Scripted>([](const RsuView& heard, RsuAnswer&) {
+                 EXPECT_EQ(heard.promised_to, kPromised - 1);
+                 ASSERT_TRUE(heard.actuation);
+                 EXPECT_EQ(heard.actuation->min_green, 60);
+                 LaneSet west_east;
+                 for (const Lane lane : kAllLanes) {
+                   if (approach_of(lane) == Approach::kWest || approach_of(lane) == Approach::kEast) {
+                     west_east.insert(lane);
+                   }
+                 }
+                 EXPECT_EQ(promised_green(heard), west_east);
+               }));
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  for (Step k = 0; k < 3; ++k) node.step(k, k == 0 ? &signal : nullptr, {.step = k, .frames = {}}, out);
 }
 
 TEST(RsuNode, SaysSpatInEachStepAndMapInEachSecond) {
@@ -152,6 +225,30 @@ TEST(RsuNode, RefusesAdviceThatNoMessageCanCarry) {
   EXPECT_EQ(decode_rsc(out.frames.payload_of(frames[0])).value().vehicles.size(), 1U);
 }
 
+TEST(RsuNode, SaysSpeedsForLanesAfterItsCarsAtMostEightAFrame) {
+  RsuNode node = node_with([](const RsuView&, RsuAnswer& answer) {
+    for (std::uint8_t lane = 0; lane < kLanes; ++lane) answer.lane_speed(static_cast<Lane>(lane), 10.0, 5);
+    answer.lane_speed(Lane{3}, std::numeric_limits<double>::quiet_NaN(), 5);
+    answer.advise_profile(TemporaryId{1}, {.segments = {{5, 1.0}, {5, -1.0}}});
+    answer.advise_speed(TemporaryId{2}, {.speed_mps = 9.0, .lifetime = 5});
+    answer.advise_profile(TemporaryId{3}, {.segments = std::vector<AccelerationSegment>(40, {1, 0.0})});
+  });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  EXPECT_EQ(out.answers_malformed, 2U);
+  const auto frames = frames_of(out, FrameKind::kRsc);
+  ASSERT_EQ(frames.size(), 3U);
+  const auto said = [&](std::size_t i) { return decode_rsc(out.frames.payload_of(frames[i])).value(); };
+  ASSERT_EQ(said(0).vehicles.size(), 2U);
+  EXPECT_EQ(said(0).vehicles[0].path->later.size(), 1U);
+  EXPECT_EQ(said(0).vehicles[1].path->speed_mps, 9.0);
+  EXPECT_EQ(said(1).lanes.size(), 8U);
+  ASSERT_EQ(said(2).lanes.size(), 4U);
+  EXPECT_EQ(said(2).lanes[3].lane, Lane{11});
+  EXPECT_EQ(said(2).node, 1);
+}
+
 TEST(RsuNode, DropsAndCountsWhatItCannotDecode) {
   std::size_t cars = 0;
   RsuNode node = node_with([&](const RsuView& heard, RsuAnswer&) { cars = heard.lanes[1].cars.size(); });
@@ -165,6 +262,30 @@ TEST(RsuNode, DropsAndCountsWhatItCannotDecode) {
   EXPECT_EQ(out.frames_heard, 2U);
   EXPECT_EQ(out.frames_malformed, 1U);
   EXPECT_EQ(cars, 1U);
+}
+
+std::uint32_t computing_ms(const ComputingTime& computing, double takes_s) {
+  RsuConfig of = config();
+  of.computing = computing;
+  double now_s = 5.0;
+  RsuNode node(of, std::make_unique<Scripted>([&](const RsuView&, RsuAnswer&) { now_s += takes_s; }));
+  node.measure_with([&] { return now_s; });
+  const SignalBatch signal = signals(0);
+  RoadsideBatch out;
+  node.step(0, &signal, {}, out);
+  return out.computing_ms;
+}
+
+TEST(RsuNode, SaysHowLongItComputedInWholeMilliseconds) {
+  EXPECT_EQ(computing_ms({.measured = true}, 0.1234), 123U);
+  EXPECT_EQ(computing_ms({.measured = true}, 0.1236), 124U);
+  EXPECT_EQ(computing_ms({.measured = true}, 0.0004), 0U);
+  EXPECT_EQ(computing_ms({.measured = true}, 1000.0), 50'000U) << "cut where the radio cuts";
+}
+
+TEST(RsuNode, SaysTheDeclaredTimeWhateverItTook) {
+  EXPECT_EQ(computing_ms({.declared_ms = 20}, 0.3), 20U);
+  EXPECT_EQ(computing_ms({}, 0.3), 0U);
 }
 
 TEST(RsuNodeDeathTest, EndsTheProgramWithoutAPromiseForItsStep) {

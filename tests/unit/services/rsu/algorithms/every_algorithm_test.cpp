@@ -95,6 +95,16 @@ TEST_P(EveryAlgorithm, SaysNothingOnAnEmptyRoad) {
   for (Step now = 0; now < 5; ++now) EXPECT_TRUE(road_.answer(*algorithm_, now).empty());
 }
 
+TEST_P(EveryAlgorithm, LeavesCarsAloneThatStandBeforeARedWhoseEndNobodyKnows) {
+  // As under a controller that RSUs may ask for greens.
+  road_.red_until(100);
+  road_.no_change_is_known();
+  road_.cars({{5.0, 0.0}, {40.0, 8.0}, {150.0, 15.0}, {300.0, 16.0}});
+  for (Step now = 0; now < 50; ++now) {
+    for (const auto& item : road_.answer(*algorithm_, now)) EXPECT_FALSE(item.advice) << now;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryAlgorithm,
                          testing::Values("arrive_on_green", "eco", "glosa", "glosa_queue", "platoon",
                                          "speed_harmonisation"),

@@ -40,7 +40,7 @@ TEST(HeardCars, AreForgottenAfterASecondUnheard) {
   EXPECT_EQ(cars.cars(kLane)[0].age, 10);
   cars.arrange(16);
   EXPECT_TRUE(cars.cars(kLane).empty());
-  EXPECT_FALSE(cars.place(TemporaryId{1}));
+  EXPECT_EQ(cars.report(TemporaryId{1}), nullptr);
 }
 
 TEST(HeardCars, CrossTheirLineBetweenTwoReports) {

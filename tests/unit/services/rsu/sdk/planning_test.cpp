@@ -33,6 +33,13 @@ TEST_F(LaneWithTwoGreens, HasTwoWindows) {
   EXPECT_DOUBLE_EQ(windows[1].end_s, 135.0);
 }
 
+TEST_F(LaneWithTwoGreens, ShowsWhatTheLastChangeLeftIt) {
+  EXPECT_EQ(aspect_at(lane_, 449), Aspect::kGreen);
+  EXPECT_EQ(aspect_at(lane_, 450), Aspect::kYellow);
+  EXPECT_EQ(aspect_at(lane_, 480), Aspect::kRed);
+  EXPECT_EQ(aspect_at(lane_, 5000), Aspect::kRed) << "nothing is known of a later change";
+}
+
 TEST_F(LaneWithTwoGreens, GivesTheGreenThatACarCanUse) {
   EXPECT_DOUBLE_EQ(green_at_or_after(lane_, 45.0)->begin_s, 10.0) << "its last instant belongs to it";
   EXPECT_DOUBLE_EQ(green_at_or_after(lane_, 45.1)->begin_s, 90.0) << "waits for the next";

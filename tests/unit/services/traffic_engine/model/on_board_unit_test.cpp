@@ -34,7 +34,7 @@ class Bench {
     ++step_;
     for (const Advice& word : words_) unit_.take(word, step_, kVehicle, outcomes_);
     words_.clear();
-    unit_.advance(step_, rules_, kVehicle, outcomes_);
+    unit_.advance(step_, 15.0, rules_, kVehicle, outcomes_);
     if (unit_.in_force()) unit_.used(outcome, kVehicle, outcomes_);
   }
   void steps(int count) {
