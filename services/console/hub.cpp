@@ -159,7 +159,7 @@ void Hub::answered(bool ok, const std::string& text) {
   if (!under_way_) return;
   const Asked asked = *std::exchange(under_way_, std::nullopt);
   reply(asked.viewer, asked.number, ok, text);
-  if (!ok) return add_event(step_, "refused", asked.text + ": " + text);
+  if (!ok) return add_event(step_, "refused", text);
   if (!asked.text.starts_with("set ")) return;
   // "set PATH=VALUE" is answered with "PATH=VALUE from step N (T s)".
   const std::string set = asked.text.substr(4);
@@ -168,6 +168,7 @@ void Hub::answered(bool ok, const std::string& text) {
     std::from_chars(text.data() + at + 11, text.data() + text.size(), from);
   }
   told_.push_back(set);
+  story_->change({from, set});
   add_event(from, "directive", set);
 }
 

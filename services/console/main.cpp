@@ -45,13 +45,14 @@ class Followed {
 
   void follow() {
     client_->poll(0.0);
+    if (!begun_) return;
     const double now_s = process::wall_s();
     if (client_->views() != views_) {
       views_ = client_->views();
       hub_.show(*client_->view(), now_s);
     }
     if (client_->state()) hub_.tell(*client_->state(), client_->clock_silent_s(), now_s);
-    if (!begun_ || client_->asking()) return;
+    if (client_->asking()) return;
     if (const auto request = hub_.take_request()) client_->ask(*request);
   }
 

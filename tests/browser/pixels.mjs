@@ -32,7 +32,9 @@ export function carsInSight(hello, picture, box, backM) {
     const lane = hello.lanes[picture.lane[i]];
     const ends = [0, hello.vehicleLengthM].map((back) => at(placeOn(lane, picture.positionM[i] - back)));
     const inside = ends.every((p) => p.x > 12 && p.y > 12 && p.x < box.width - 12 && p.y < box.height - 12);
-    if (!inside) return;
+    const pastLineM = picture.positionM[i] - lane.stopLineM;
+    const underLamp = pastLineM > -1 && pastLineM < 7; // the heads are drawn over the cars
+    if (!inside || underLamp) return;
     cars.push({ vehicle, equipped: picture.equipped[i] !== 0, spot: at(placeOn(lane, picture.positionM[i] - backM)) });
   });
   return cars;

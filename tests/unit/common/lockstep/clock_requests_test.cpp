@@ -241,5 +241,31 @@ TEST(ClockRequests, MayComeBeforeTheStart) {
   EXPECT_EQ(rig.phase(), RunPhase::kEnding);
 }
 
+TEST(ClockRequests, TellALateObserverTheScenarioAndWhatGrantsHaveChanged) {
+  ClockRig rig = running();
+  EXPECT_TRUE(rig.ask("set good=1").starts_with("good=1 from step 301"));
+  const auto told = [&] {
+    rig.up({.kind = Up::Kind::kRequest, .incarnation = kOperator, .number = 7, .text = "scenario"});
+    return rig.the(Control::Kind::kReply);
+  };
+  Control answer = told();
+  EXPECT_EQ(answer.text, "run { }");
+  EXPECT_EQ(answer.number, 7U);
+  EXPECT_TRUE(answer.directive_set.empty()) << "no grant has said it yet: the observer will hear it from one";
+  rig.all_did(300);
+  answer = told();
+  ASSERT_EQ(answer.directive_set.size(), 1U) << "the same question is answered anew";
+  EXPECT_EQ(answer.directive_set[0], "good=1");
+  EXPECT_EQ(answer.directive_step[0], 301);
+}
+
+TEST(ClockRequests, AreAnsweredUnderTheirNumber) {
+  ClockRig rig = running();
+  rig.up({.kind = Up::Kind::kRequest, .incarnation = kOperator, .number = 3, .text = "pause"});
+  EXPECT_EQ(rig.the(Control::Kind::kReply).number, 3U);
+  rig.up({.kind = Up::Kind::kRequest, .incarnation = kOperator, .number = 3, .text = "pause"});
+  EXPECT_EQ(rig.the(Control::Kind::kReply).number, 3U) << "also the second time";
+}
+
 }  // namespace
 }  // namespace lukou

@@ -220,6 +220,13 @@ export const en = {
   'loss.uplink': 'car to RSU',
   'loss.downlink': 'RSU to car',
   'loss.v2v': 'car to car',
+  'cause.random': 'random',
+  'cause.burst': 'burst',
+  'cause.range': 'out of range',
+  'cause.path_loss': 'too weak',
+  'cause.collision': 'collision',
+  'cause.half_duplex': 'half duplex',
+  'cause.outage': 'outage',
 
   'log.members': 'Processes',
   'log.alive': 'alive',

@@ -221,6 +221,13 @@ export const zh: Record<Key, string> = {
   'loss.uplink': '车到路侧',
   'loss.downlink': '路侧到车',
   'loss.v2v': '车到车',
+  'cause.random': '随机',
+  'cause.burst': '突发',
+  'cause.range': '超出距离',
+  'cause.path_loss': '信号太弱',
+  'cause.collision': '碰撞',
+  'cause.half_duplex': '半双工',
+  'cause.outage': '中断',
 
   'log.members': '进程',
   'log.alive': '正常',

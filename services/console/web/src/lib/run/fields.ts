@@ -69,3 +69,12 @@ export function directiveIn(text: string): { path: string; value: string } | nul
   const at = text.indexOf('=');
   return at <= 0 ? null : { path: text.slice(0, at).trim(), value: text.slice(at + 1).trim() };
 }
+
+/** Beyond this a range is no limit: it reaches over every road. */
+const NO_LIMIT_M = 10_000;
+
+/** How far the RSUs are heard [m]; null if no limit is set. */
+export function rangeOf(fields: Fields): number | null {
+  const rangeM = Number(fields.get('radio.downlink.range_m')?.value ?? '');
+  return rangeM > 0 && rangeM < NO_LIMIT_M ? rangeM : null;
+}

@@ -10,6 +10,8 @@ export const GREEN = 3;
 
 /** No word was missed: the value of `missed` then. */
 export const NOTHING_MISSED = 255;
+/** State of a car that has crossed its stop line. */
+export const CROSSED = 3;
 /** Guidance states that the page tells apart in its drawing. */
 export const ADVICE_IN_FORCE = 2;
 
