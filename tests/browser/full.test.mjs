@@ -362,6 +362,24 @@ describe('what goes wrong, and the end', { timeout: 150_000 }, () => {
     await close();
   });
 
+  test('a console that is killed is said, and found again when it is back', async (t) => {
+    const run = await startRun(['--pace', '10']);
+    t.after(() => run.end());
+    const first = await attach(run.id);
+    const { page, errors, close } = await openPage(browser, first.url);
+    await first.end('SIGKILL');
+    await page.getByText('connection lost').waitFor();
+    assert.ok(await page.getByRole('button', { name: 'Pause' }).isDisabled());
+    const second = await attach(run.id, new URL(first.url).port);
+    t.after(() => second.end());
+    await page.getByRole('status').getByText('running').waitFor();
+    const step = await stepOf(page);
+    await until(async () => (await stepOf(page)) > step, 'the picture moves again');
+    // The browser itself reports each attempt that found nobody.
+    assert.deepEqual(errors.filter((text) => !text.includes('ERR_CONNECTION_REFUSED')), []);
+    await close();
+  });
+
   test('End asks first, and the page says that the run has ended', async (t) => {
     const run = await startRun(['--pace', '10']);
     t.after(() => run.end());

@@ -45,6 +45,7 @@ export class Console {
   refusal = $state(''); // of the last request that was refused
   newest = $state.raw<Scene | null>(null); // follows the newest picture a few times a second
   samplesSeen = $state(0); // counts changes of `samples`
+  ghost = $state.raw<readonly Sample[]>([]); // what the charts compare with; empty: nothing
   scrubbed = $state<number | null>(null); // step that the user looks back at; null: live
 
   paths: readonly Path[] = $derived((this.hello?.lanes ?? []).map((lane) => new Path(lane)));
@@ -91,6 +92,11 @@ export class Console {
 
   releaseControl(): void {
     this.connection.releaseControl();
+  }
+
+  /** Keeps the figures so far as the charts' ghost, or drops the one that is kept. Another run leaves it alone. */
+  toggleGhost(): void {
+    this.ghost = this.ghost.length > 0 ? [] : [...this.samples.all()];
   }
 
   /** Looks `by` pictures back or forth from the one that is shown; beyond the newest it is live again. */
