@@ -94,7 +94,10 @@ const firstPort = () => 20_000 + (process.pid % 20_000);
 
 function runIds() {
   const listed = execFileSync(lukou, ['ctl', 'list'], { env: environment, encoding: 'utf8' });
-  return listed.split('\n').map((line) => line.split(/\s+/)[0]).filter((id) => id !== '');
+  return listed
+    .split('\n')
+    .map((line) => line.split(/\s+/)[0])
+    .filter((id) => id !== '');
 }
 
 /** Runs without a console, to the end. */

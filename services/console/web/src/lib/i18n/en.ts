@@ -154,7 +154,8 @@ export const en = {
   'card.follow': 'Follow',
   'card.close': 'Close the card',
   'card.plane': 'Gap over relative speed',
-  'card.planeHint': 'As in figure 5 of the paper: distance head to head over own speed less that of the car ahead; the trail is the last minute',
+  'card.planeHint':
+    'As in figure 5 of the paper: distance head to head over own speed less that of the car ahead; the trail is the last minute',
   'card.alone': 'nobody within 150 m ahead',
   'card.gap': 'gap m',
   'card.closing': 'closing m/s',
@@ -195,13 +196,15 @@ export const en = {
   'define.waiting': 'Cars that have arrived and found no safe place at the entrance yet.',
   'define.inSystem': 'Cars on the road now, approach and exit.',
   'define.left': 'Cars that have left the end of their exit since step 0.',
-  'define.throughput': 'Cars that crossed a stop line in the last minute, as vehicles per hour of the whole intersection.',
+  'define.throughput':
+    'Cars that crossed a stop line in the last minute, as vehicles per hour of the whole intersection.',
   'define.standing': 'Cars before the line that are slower than 5 km/h now.',
   'define.stops': 'Times that a car fell below 5 km/h before its line, counted again only after more than 8 km/h.',
   'define.stopsPerCar': 'Stops in all over cars that came onto the road.',
   'define.stopTime': 'Time below 5 km/h before the line, of all cars together.',
   'define.meanStopTime': 'Stop time in all over cars that came onto the road.',
-  'define.meanDelay': 'Time on the road less that of the same driver with nobody ahead and no light, mean of the cars that have left.',
+  'define.meanDelay':
+    'Time on the road less that of the same driver with nobody ahead and no light, mean of the cars that have left.',
 
   'chart.title': 'Charts',
   'chart.throughput': 'Throughput, veh/h',
@@ -216,7 +219,8 @@ export const en = {
   'chart.down': 'RSU to car',
   'chart.achieved': 'achieved',
   'chart.keep': 'Keep as ghost',
-  'chart.keepHint': 'The lines of all cars stay as a grey ghost, to compare with what comes: another seed, plan or ratio',
+  'chart.keepHint':
+    'The lines of all cars stay as a grey ghost, to compare with what comes: another seed, plan or ratio',
   'chart.drop': 'Drop the ghost',
   'chart.ghost': 'ghost',
   'chart.reset': 'double-click shows all again',
@@ -287,7 +291,8 @@ export const en = {
   'plan.ok': 'No crossing streams meet.',
   'plan.unknown': 'Conflicts are checked when the plan is sent.',
   'find.hard': '{a} and {b} cross: both may go from {from} to {to} s',
-  'find.permitted': '{a} and {b}: a left turn against the oncoming stream from {from} to {to} s; drivers do not yield in this model',
+  'find.permitted':
+    '{a} and {b}: a left turn against the oncoming stream from {from} to {to} s; drivers do not yield in this model',
   'find.no_clearance': '{pairs} crossing pairs have less than 1 s between them, {a} and {b} only {gap} s',
   'find.short_green': '{lane} has only {s} s of green',
   'find.never_green': '{lane} never gets green',

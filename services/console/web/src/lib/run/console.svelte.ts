@@ -1,14 +1,6 @@
 // All that the page knows: what the server said, newest last, and what the user looks at. Nothing of the simulation stands here
 // that did not come over the wire.
-import type {
-  Event,
-  Hands,
-  Hello,
-  Reply,
-  RunStatus,
-  Statistics,
-  ToPage,
-} from '../../generated/console_pb';
+import type { Event, Hands, Hello, Reply, RunStatus, Statistics, ToPage } from '../../generated/console_pb';
 import { Path } from '../view/path';
 import { Playback } from '../view/playback';
 import { Connection, type LinkState } from '../wire/connection';
@@ -103,7 +95,7 @@ export class Console {
   lookBy(by: number): void {
     const from = this.scrubbed ?? this.scenes.last?.step ?? -1;
     const index = Math.max(0, this.scenes.indexAt(from) + by);
-    this.scrubbed = index >= this.scenes.length - 1 ? null : this.scenes.at(index)?.step ?? null;
+    this.scrubbed = index >= this.scenes.length - 1 ? null : (this.scenes.at(index)?.step ?? null);
   }
 
   /** What has come is on the screen: the next pictures may come. */
