@@ -218,6 +218,7 @@ export const en = {
   'chart.up': 'car to RSU',
   'chart.down': 'RSU to car',
   'chart.achieved': 'achieved',
+  'chart.save': 'Save as CSV',
   'chart.keep': 'Keep as ghost',
   'chart.keepHint':
     'The lines of all cars stay as a grey ghost, to compare with what comes: another seed, plan or ratio',

@@ -216,6 +216,7 @@ export const zh: Record<Key, string> = {
   'chart.up': '车到路侧',
   'chart.down': '路侧到车',
   'chart.achieved': '实际',
+  'chart.save': '存为 CSV',
   'chart.keep': '留作对照线',
   'chart.keepHint': '全部车辆的曲线以灰色留作对照，用于与另一种子、配时或比例相比较',
   'chart.drop': '去掉对照线',

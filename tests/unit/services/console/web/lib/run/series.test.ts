@@ -1,4 +1,4 @@
-import { CHARTS, columnsOf, compares, ghostColumn, type Chart } from '@page/lib/run/series';
+import { CHARTS, columnsOf, compares, ghostColumn, seriesRows, type Chart } from '@page/lib/run/series';
 import type { Sample } from '@page/lib/run/console.svelte';
 
 const sample = (step: number, delay?: number): Sample =>
@@ -21,6 +21,15 @@ describe('the columns of a chart', () => {
     const ghost = [sample(10, 1), sample(20, 2), sample(30, 3)];
     const now = [sample(5), sample(10), sample(25), sample(30), sample(31)];
     expect(ghostColumn(chart('delay'), ghost, now)).toEqual([null, 1, 2, 3, null]);
+  });
+
+  it('are saved with a name each, empty where there is no value', () => {
+    const [head, row] = seriesRows([sample(20, 3.5)], 0.1);
+    expect(head.slice(0, 4)).toEqual(['time_s', 'stopTime.all', 'stopTime.equipped', 'stopTime.unequipped']);
+    expect(row[0]).toBe('2.0');
+    expect(row[head.indexOf('delay.all')]).toBe('3.5');
+    expect(row[head.indexOf('delay.equipped')]).toBe('');
+    expect(row).toHaveLength(head.length);
   });
 
   it('can be compared where they show all cars', () => {
