@@ -13,7 +13,9 @@ const median = (values) => values.sort((a, b) => a - b)[Math.floor(values.length
 function pageSize() {
   const folder = join(dirname(programs), 'console');
   const files = readdirSync(folder, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
-  const bytes = files.map((entry) => gzipSync(readFileSync(join(entry.parentPath ?? entry.path, entry.name)), { level: 9 }).length);
+  const bytes = files.map(
+    (entry) => gzipSync(readFileSync(join(entry.parentPath ?? entry.path, entry.name)), { level: 9 }).length,
+  );
   line('page, all files gzipped [kB]', (bytes.reduce((sum, n) => sum + n, 0) / 1000).toFixed(1), 'goal: at most 120');
 }
 
@@ -31,7 +33,9 @@ async function firstPicture(browser, url) {
       watch();
     });
     await page.goto(url);
-    times.push(await page.waitForFunction(() => window.firstPictureMs, undefined, { polling: 20 }).then((h) => h.jsonValue()));
+    times.push(
+      await page.waitForFunction(() => window.firstPictureMs, undefined, { polling: 20 }).then((h) => h.jsonValue()),
+    );
     await context.close();
   }
   line('first picture after the navigation, median of 5 [ms]', median(times).toFixed(0), 'goal: 1000');
@@ -75,7 +79,11 @@ async function frames({ page, heard }, view) {
       }),
   );
   const cars = heard.picture.vehicle.length;
-  line(`frames a second, ${view}, ${cars} cars on the road`, drawn.toFixed(1), `goal: 60; browser offers ${offered.toFixed(1)}, longest gap ${worstMs.toFixed(0)} ms`);
+  line(
+    `frames a second, ${view}, ${cars} cars on the road`,
+    drawn.toFixed(1),
+    `goal: 60; browser offers ${offered.toFixed(1)}, longest gap ${worstMs.toFixed(0)} ms`,
+  );
   line('   pace meanwhile, asked 1', heard.status.paceAchieved.toFixed(2));
 }
 
@@ -92,7 +100,10 @@ async function memory(browser, run) {
   };
   run.ctl('pace', '100');
   for (let minute = 0; minute <= minutes; ++minute) {
-    line(`memory after ${minute} min at 100x: server, page [MB]`, `${rss().toFixed(1)}, ${(await heap(viewers[0])).toFixed(1)}`);
+    line(
+      `memory after ${minute} min at 100x: server, page [MB]`,
+      `${rss().toFixed(1)}, ${(await heap(viewers[0])).toFixed(1)}`,
+    );
     if (minute < minutes) await viewers[0].page.waitForTimeout(60_000);
   }
 }

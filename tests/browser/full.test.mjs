@@ -13,7 +13,8 @@ after(async () => browser?.close());
 
 const directives = (heard) => heard.events.filter(({ kind }) => kind === 'directive');
 const tab = (page, name) => page.getByRole('tab', { name }).click();
-const speed = (page, name) => page.getByRole('group', { name: 'Speed' }).getByRole('button', { name, exact: true }).click();
+const speed = (page, name) =>
+  page.getByRole('group', { name: 'Speed' }).getByRole('button', { name, exact: true }).click();
 
 /** Two ways to move a slider: keys, and the mouse at a share of its width. */
 async function slideTo(page, slider, share) {
@@ -37,7 +38,11 @@ describe('flows and ratio', { timeout: 150_000 }, () => {
     await west.fill('3000');
     await west.press('Enter');
     await until(() => directives(heard).some(({ text }) => text === 'traffic.west.flow_veh_per_h=3000'), 'the echo');
-    for (const [side, share] of [['South', 0], ['East', 0], ['North', 0]]) {
+    for (const [side, share] of [
+      ['South', 0],
+      ['East', 0],
+      ['North', 0],
+    ]) {
       await slideTo(page, page.getByRole('slider', { name: side }), share);
     }
     await until(() => directives(heard).length >= 4, 'four directives');
@@ -174,12 +179,26 @@ describe('the signal plan', { timeout: 150_000 }, () => {
     await panel.getByRole('button', { name: 'Apply' }).click();
     await until(() => directives(heard).some(({ text }) => text.startsWith('signals.plan=')), 'the directive');
     const asked = Number(directives(heard).findLast(({ text }) => text.startsWith('signals.plan=')).step);
-    const taken = await until(() => heard.pictures.find((p) => p.program && p.program.lanes[0].steps[0] === 410), 'the new plan', 40_000);
+    const taken = await until(
+      () => heard.pictures.find((p) => p.program && p.program.lanes[0].steps[0] === 410),
+      'the new plan',
+      40_000,
+    );
     // The paper's cycles begin at multiples of 900 steps: the new plan's first one at the next of them.
     assert.equal(Number(taken.programFrom) % 900, 0);
     assert.ok(Number(taken.programFrom) >= asked);
-    await until(() => heard.pictures.some((p) => (Number(p.step) - Number(taken.programFrom)) % 900 === 0 ||
-      ((Number(p.step) - Number(taken.programFrom)) % 900 >= 410 && (Number(p.step) - Number(taken.programFrom)) % 900 < 440 && p.heads[0] === 2)), 'yellow', 60_000);
+    await until(
+      () =>
+        heard.pictures.some(
+          (p) =>
+            (Number(p.step) - Number(taken.programFrom)) % 900 === 0 ||
+            ((Number(p.step) - Number(taken.programFrom)) % 900 >= 410 &&
+              (Number(p.step) - Number(taken.programFrom)) % 900 < 440 &&
+              p.heads[0] === 2),
+        ),
+      'yellow',
+      60_000,
+    );
     await panel.getByText('as it runs').waitFor();
   });
 
@@ -206,7 +225,9 @@ describe('the signal plan', { timeout: 150_000 }, () => {
     await text.fill(before.replace('cycle_s: 90', 'cycle_s: 80'));
     await page.getByRole('button', { name: 'Read' }).click();
     await page.getByText('the cycle is 80 s').waitFor();
-    await text.fill(before.replaceAll('duration_s: 41', 'duration_s: 40').replaceAll('YELLOW duration_s: 3', 'YELLOW duration_s: 4'));
+    await text.fill(
+      before.replaceAll('duration_s: 41', 'duration_s: 40').replaceAll('YELLOW duration_s: 3', 'YELLOW duration_s: 4'),
+    );
     await page.getByRole('button', { name: 'Read' }).click();
     assert.equal(await valueOf(0), 40);
     await panel.getByRole('button', { name: 'Discard' }).click();
@@ -258,7 +279,9 @@ describe('looking', { timeout: 150_000 }, () => {
 
   test('a car that is clicked shows its card and its place in the plane of figure 5; follow keeps it in the middle', async () => {
     const box = await page.locator('#picture').boundingBox();
-    const car = carsInSight(heard.hello, heard.picture, box, 2.2).find(({ spot }) => spot.x > 300 && spot.y < box.height - 120 && spot.y > 100);
+    const car = carsInSight(heard.hello, heard.picture, box, 2.2).find(
+      ({ spot }) => spot.x > 300 && spot.y < box.height - 120 && spot.y > 100,
+    );
     await page.mouse.click(box.x + car.spot.x, box.y + car.spot.y);
     const card = page.getByRole('region', { name: `Car ${car.vehicle}` });
     await card.waitFor();
@@ -267,7 +290,10 @@ describe('looking', { timeout: 150_000 }, () => {
     await card.getByRole('button', { name: 'Follow' }).click();
     await page.locator('#picture').press(' ');
     await until(async () => {
-      const { colours } = await coloursAt(page, [{ x: box.width / 2 + 6, y: box.height / 2 }, { x: box.width / 2, y: box.height / 2 + 6 }]);
+      const { colours } = await coloursAt(page, [
+        { x: box.width / 2 + 6, y: box.height / 2 },
+        { x: box.width / 2, y: box.height / 2 + 6 },
+      ]);
       return colours.some((colour) => colour[3] > 200);
     }, 'the car in the middle');
     await page.locator('#picture').press('Escape');
@@ -278,7 +304,10 @@ describe('looking', { timeout: 150_000 }, () => {
   test('scrub back, and go live', async () => {
     const slider = page.getByRole('slider', { name: 'Look back' });
     await slideTo(page, slider, 0.5);
-    const then = await until(() => stepOf(page).then((s) => (s < Number(heard.picture.step) - 100 ? s : 0)), 'an earlier picture');
+    const then = await until(
+      () => stepOf(page).then((s) => (s < Number(heard.picture.step) - 100 ? s : 0)),
+      'an earlier picture',
+    );
     await page.getByText(/looking back [\d.]+ s/).waitFor();
     await page.waitForTimeout(500);
     assert.equal(await stepOf(page), then); // it stands while the run goes on
@@ -362,6 +391,27 @@ describe('what goes wrong, and the end', { timeout: 150_000 }, () => {
     await close();
   });
 
+  test('a console that is killed is said, and found again when it is back', async (t) => {
+    const run = await startRun(['--pace', '10']);
+    t.after(() => run.end());
+    const first = await attach(run.id);
+    const { page, errors, close } = await openPage(browser, first.url);
+    await first.end('SIGKILL');
+    await page.getByText('connection lost').waitFor();
+    assert.ok(await page.getByRole('button', { name: 'Pause' }).isDisabled());
+    const second = await attach(run.id, new URL(first.url).port);
+    t.after(() => second.end());
+    await page.getByRole('status').getByText('running').waitFor();
+    const step = await stepOf(page);
+    await until(async () => (await stepOf(page)) > step, 'the picture moves again');
+    // The browser itself reports each attempt that found nobody.
+    assert.deepEqual(
+      errors.filter((text) => !text.includes('ERR_CONNECTION_REFUSED')),
+      [],
+    );
+    await close();
+  });
+
   test('End asks first, and the page says that the run has ended', async (t) => {
     const run = await startRun(['--pace', '10']);
     t.after(() => run.end());
@@ -401,7 +451,14 @@ describe('the results', { timeout: 150_000 }, () => {
     await close();
     assert.equal(await run.process.ended, 0);
     const again = join(run.out, '..', 'again');
-    await runToEnd(['--quiet', '--out', again, '--replay-directives', join(run.out, 'directives.textproto'), ...length]);
+    await runToEnd([
+      '--quiet',
+      '--out',
+      again,
+      '--replay-directives',
+      join(run.out, 'directives.textproto'),
+      ...length,
+    ]);
     // Facts of the wall clock stand in these two and nowhere else.
     const compared = readdirSync(run.out).filter((name) => !['timing.json', 'operator.log'].includes(name));
     assert.ok(compared.includes('car.csv') && compared.includes('directives.textproto'), compared.join());

@@ -52,7 +52,9 @@ export function coloursAt(page, places, counted = []) {
       const canvas = document.getElementById('picture');
       const ratio = canvas.width / canvas.clientWidth;
       const context = canvas.getContext('2d');
-      const colours = spots.map(({ x, y }) => [...context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data]);
+      const colours = spots.map(({ x, y }) => [
+        ...context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data,
+      ]);
       const all = context.getImageData(0, 0, canvas.width, canvas.height).data;
       const counts = wanted.map(([r, g, b]) => {
         let n = 0;

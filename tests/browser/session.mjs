@@ -94,7 +94,10 @@ const firstPort = () => 20_000 + (process.pid % 20_000);
 
 function runIds() {
   const listed = execFileSync(lukou, ['ctl', 'list'], { env: environment, encoding: 'utf8' });
-  return listed.split('\n').map((line) => line.split(/\s+/)[0]).filter((id) => id !== '');
+  return listed
+    .split('\n')
+    .map((line) => line.split(/\s+/)[0])
+    .filter((id) => id !== '');
 }
 
 /** Runs without a console, to the end. */
@@ -105,10 +108,10 @@ export async function runToEnd(args, scenario = 'paper') {
 }
 
 /** A second console on a run. */
-export async function attach(id) {
-  const process = new Process(join(programs, 'lukou-console'), ['--attach', id, '--port', '0']);
-  const url = await until(() => process.output.match(URL_LINE)?.[0], `address of the console in: ${process.output}`);
-  return { url, end: () => process.end() };
+export async function attach(id, port = 0) {
+  const console = new Process(join(programs, 'lukou-console'), ['--attach', id, '--port', String(port)]);
+  const url = await until(() => console.output.match(URL_LINE)?.[0], `address of the console in: ${console.output}`);
+  return { url, end: (signal) => console.end(signal) };
 }
 
 /** Pid of one of the processes that a run started. */

@@ -59,47 +59,61 @@ test('only the approaches with a flow have new cars', () => {
   assert.ok(south + north < 20, `south ${south}, north ${north}`);
 });
 
-test('the cars on the screen are those of the picture, blue with a unit, orange without', { timeout: 60_000 }, async () => {
-  await page.getByRole('group', { name: 'Intersection' }).getByRole('button', { name: 'Last 50 m' }).click();
-  const step = await stepOf(page);
-  const picture = heard.pictures.findLast((p) => Number(p.step) === step);
-  const box = await page.locator('#picture').boundingBox();
-  await page.waitForTimeout(300);
-  const cars = carsInSight(heard.hello, picture, box, 0.6); // the bonnet: body colour
-  assert.ok(cars.length >= 2, `${cars.length} cars in sight`);
-  const { colours } = await coloursAt(page, cars.map((car) => car.spot));
-  cars.forEach((car, i) => {
-    const wanted = car.equipped ? EQUIPPED : UNEQUIPPED;
-    assert.ok(near(colours[i], wanted), `car ${car.vehicle}, equipped ${car.equipped}: ${colours[i]}`);
-  });
-  assert.ok(Number(await page.locator('#picture').getAttribute('data-cars')) >= cars.length);
-});
+test(
+  'the cars on the screen are those of the picture, blue with a unit, orange without',
+  { timeout: 60_000 },
+  async () => {
+    await page.getByRole('group', { name: 'Intersection' }).getByRole('button', { name: 'Last 50 m' }).click();
+    const step = await stepOf(page);
+    const picture = heard.pictures.findLast((p) => Number(p.step) === step);
+    const box = await page.locator('#picture').boundingBox();
+    await page.waitForTimeout(300);
+    const cars = carsInSight(heard.hello, picture, box, 0.6); // the bonnet: body colour
+    assert.ok(cars.length >= 2, `${cars.length} cars in sight`);
+    const { colours } = await coloursAt(
+      page,
+      cars.map((car) => car.spot),
+    );
+    cars.forEach((car, i) => {
+      const wanted = car.equipped ? EQUIPPED : UNEQUIPPED;
+      assert.ok(near(colours[i], wanted), `car ${car.vehicle}, equipped ${car.equipped}: ${colours[i]}`);
+    });
+    assert.ok(Number(await page.locator('#picture').getAttribute('data-cars')) >= cars.length);
+  },
+);
 
 test('the stop lines have the colours of their heads', { timeout: 60_000 }, async () => {
   const picture = heard.pictures.at(-1);
   const box = await page.locator('#picture').boundingBox();
-  const { colours } = await coloursAt(page, heard.hello.lanes.map((_, lane) => stopLine(heard.hello, lane, box)));
+  const { colours } = await coloursAt(
+    page,
+    heard.hello.lanes.map((_, lane) => stopLine(heard.hello, lane, box)),
+  );
   picture.heads.forEach((aspect, lane) => {
     const wanted = aspect === 3 ? GREEN : RED; // the paper's plan has no yellow
     assert.ok(near(colours[lane], wanted), `${heard.hello.lanes[lane].name} shows ${aspect}: ${colours[lane]}`);
   });
 });
 
-test('a plan that lets crossing streams go together is refused in words, a good one is taken', { timeout: 60_000 }, async () => {
-  await page.getByRole('tab', { name: 'Signals' }).click();
-  const panel = page.getByRole('tabpanel');
-  await panel.locator('[data-lane=SC]').click();
-  await panel.getByRole('spinbutton', { name: 'Time line' }).fill('40');
-  await panel.getByRole('spinbutton', { name: 'Time line' }).press('Enter');
-  await panel.getByRole('button', { name: 'Set green behind the line' }).click();
-  assert.match(await panel.getByRole('list').last().innerText(), /SC.*cross|cross.*SC/);
-  await panel.getByRole('button', { name: 'Apply' }).click();
-  await panel.getByRole('alert').getByText('crossing streams').waitFor();
-  await panel.getByRole('button', { name: 'Undo' }).click();
-  await panel.getByRole('combobox').selectOption('PAPER_YELLOW');
-  await panel.getByRole('button', { name: 'Apply' }).click();
-  await panel.getByText('accepted').waitFor();
-});
+test(
+  'a plan that lets crossing streams go together is refused in words, a good one is taken',
+  { timeout: 60_000 },
+  async () => {
+    await page.getByRole('tab', { name: 'Signals' }).click();
+    const panel = page.getByRole('tabpanel');
+    await panel.locator('[data-lane=SC]').click();
+    await panel.getByRole('spinbutton', { name: 'Time line' }).fill('40');
+    await panel.getByRole('spinbutton', { name: 'Time line' }).press('Enter');
+    await panel.getByRole('button', { name: 'Set green behind the line' }).click();
+    assert.match(await panel.getByRole('list').last().innerText(), /SC.*cross|cross.*SC/);
+    await panel.getByRole('button', { name: 'Apply' }).click();
+    await panel.getByRole('alert').getByText('crossing streams').waitFor();
+    await panel.getByRole('button', { name: 'Undo' }).click();
+    await panel.getByRole('combobox').selectOption('PAPER_YELLOW');
+    await panel.getByRole('button', { name: 'Apply' }).click();
+    await panel.getByText('accepted').waitFor();
+  },
+);
 
 test('nothing that axe-core calls serious, no error in the page', { timeout: 60_000 }, async () => {
   assert.deepEqual(await axeFindings(page), []);

@@ -60,7 +60,8 @@ export function directed(fields: Fields, text: string, step: number, shown: numb
 export function arrivedAt(fields: Fields, shown: number): Fields {
   let result = fields;
   for (const [path, { pending }] of fields) {
-    if (pending?.step != null && pending.step <= shown) result = changed(result, path, { value: pending.value, pending: null });
+    if (pending?.step != null && pending.step <= shown)
+      result = changed(result, path, { value: pending.value, pending: null });
   }
   return result;
 }

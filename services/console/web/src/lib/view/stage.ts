@@ -55,7 +55,7 @@ export class Stage {
       this.roads.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
       drawRoads(this.roads, view.camera, run.paths, { laneWidthM: run.hello?.laneWidthM ?? 3.5, palette });
     }
-    const shownStep = this.moment === null ? -1 : run.scrubbed ?? run.playback.stepAt(nowMs);
+    const shownStep = this.moment === null ? -1 : (run.scrubbed ?? run.playback.stepAt(nowMs));
     const key = [still, shownStep, this.moment?.scene.step, view.colouring, view.radio, view.selected].join();
     if (key !== this.movingKey) {
       this.movingKey = key;

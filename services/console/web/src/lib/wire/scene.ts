@@ -60,7 +60,7 @@ export function sceneOf(picture: Picture, before: Scene | null): Scene {
     nextAspect: picture.nextAspect.slice(),
     waiting: picture.waiting,
     program: picture.program ?? before?.program ?? null,
-    programFrom: picture.program ? Number(picture.programFrom) : before?.programFrom ?? 0,
+    programFrom: picture.program ? Number(picture.programFrom) : (before?.programFrom ?? 0),
   };
 }
 
