@@ -1,0 +1,18 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
+
+#include "common/intersection/lane_set.hpp"
+
+namespace lukou::python {
+
+/// What an RSU answers: RsuAnswer, and the advice and the request that a test reads back.
+void bind_answer(pybind11::module_& m);
+
+/// "WL" and so on.
+std::vector<std::string> names_of(LaneSet lanes);
+
+}  // namespace lukou::python
