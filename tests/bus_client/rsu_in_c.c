@@ -1,5 +1,5 @@
-/* An RSU written from idl/bus.idl alone, in C: it joins a run, hears the air in lockstep, asks every car that it hears to
- * speed up a little, and leaves. docs/bus-client.md explains it part by part. It knows the ideal radio only.
+/* An RSU written from idl/bus.idl alone, in C: it joins a run, hears the air in lockstep, asks every car that it hears
+ * to speed up a little, and leaves. docs/bus-client.md explains it part by part. It knows the ideal radio only.
  *
  *   lukou run paper --rsu rsu_in_c
  */
@@ -19,16 +19,16 @@ enum { UP_JOIN = 1, UP_SEES = 2, UP_PROGRESS = 3, UP_LEAVE = 8 };
 enum { WELCOME = 1, REFUSE = 2, ROSTER = 3, GRANT = 4, FENCE = 5, ENDED = 6, ABORT = 7 };
 
 struct client {
-  uint64_t self;                  /* incarnation: this start of this program */
-  uint32_t rsu;                   /* index in the scenario's list */
-  char role[16];                  /* "rsu0" */
+  uint64_t self; /* incarnation: this start of this program */
+  uint32_t rsu;  /* index in the scenario's list */
+  char role[16]; /* "rsu0" */
   dds_entity_t participant, waitset, control, up, air, signal, roadside;
-  dds_entity_t request;           /* 0: the plan is fixed, the controller hears no requests */
+  dds_entity_t request; /* 0: the plan is fixed, the controller hears no requests */
   bool welcome, over, failed;
   uint32_t epoch, roster_version;
   bool roster_open;
-  int64_t through, next;          /* last step granted, next step to execute */
-  uint32_t next_sequence;         /* of the next frame */
+  int64_t through, next;  /* last step granted, next step to execute */
+  uint32_t next_sequence; /* of the next frame */
 };
 
 static double now_s(void) {
@@ -37,7 +37,7 @@ static double now_s(void) {
   return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-static dds_entity_t made(dds_entity_t entity, const char *what) {
+static dds_entity_t made(dds_entity_t entity, const char* what) {
   if (entity >= 0) return entity;
   fprintf(stderr, "rsu_in_c: cannot create %s: %s\n", what, dds_strretcode(-entity));
   exit(1);
@@ -45,17 +45,18 @@ static dds_entity_t made(dds_entity_t entity, const char *what) {
 
 /* ---- the bus ---------------------------------------------------------------------------------------------------- */
 
-static dds_entity_t endpoint(struct client *c, const dds_topic_descriptor_t *type, const char *topic, bool writer,
+static dds_entity_t endpoint(struct client* c, const dds_topic_descriptor_t* type, const char* topic, bool writer,
                              bool stream) {
-  dds_qos_t *qos = dds_create_qos();
+  dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
   dds_qset_history(qos, stream || !writer ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST, 512);
   if (writer) dds_qset_writer_data_lifecycle(qos, false);
   if (writer && stream) dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
   dds_qset_userdata(qos, &c->self, sizeof c->self);
   dds_entity_t t = made(dds_create_topic(c->participant, type, topic, NULL, NULL), topic);
-  dds_entity_t e = made(writer ? dds_create_writer(c->participant, t, qos, NULL)
-                               : dds_create_reader(c->participant, t, qos, NULL), topic);
+  dds_entity_t e =
+      made(writer ? dds_create_writer(c->participant, t, qos, NULL) : dds_create_reader(c->participant, t, qos, NULL),
+           topic);
   dds_delete_qos(qos);
   if (!writer) {
     dds_entity_t news = made(dds_create_readcondition(e, DDS_ANY_STATE), "a read condition");
@@ -64,14 +65,15 @@ static dds_entity_t endpoint(struct client *c, const dds_topic_descriptor_t *typ
   return e;
 }
 
-static void join_bus(struct client *c, uint32_t domain, const char *run) {
+static void join_bus(struct client* c, uint32_t domain, const char* run) {
   char config[1024];
   snprintf(config, sizeof config,
            "<Domain id=\"any\"><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
            "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize>"
            "<FragmentSize>64000B</FragmentSize></General>"
            "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>60</MaxAutoParticipantIndex>"
-           "<Peers><Peer Address=\"127.0.0.1\"/></Peers><Tag>lukou-%s</Tag></Discovery></Domain>", run);
+           "<Peers><Peer Address=\"127.0.0.1\"/></Peers><Tag>lukou-%s</Tag></Discovery></Domain>",
+           run);
   made(dds_create_domain(domain, config), "the domain");
   c->participant = made(dds_create_participant(domain, NULL, NULL), "a participant");
   c->waitset = made(dds_create_waitset(c->participant), "a waitset");
@@ -82,14 +84,20 @@ static void join_bus(struct client *c, uint32_t domain, const char *run) {
   c->roadside = endpoint(c, &lukou_bus_Roadside_desc, "lukou/roadside", true, false);
 }
 
-static void write_until_done(struct client *c, dds_entity_t writer, const void *sample) {
+static void write_until_done(struct client* c, dds_entity_t writer, const void* sample) {
   while (dds_write(writer, sample) == DDS_RETCODE_TIMEOUT && !c->over) {
   }
 }
 
-static void say(struct client *c, int kind, uint64_t number, const char *text) {
-  lukou_bus_Up up = {.incarnation = c->self, .kind = (uint8_t)kind, .role = c->role, .protocol = PROTOCOL_VERSION,
-                     .number = number, .step = c->next - 1, .text = (char *)text, .hash = ""};
+static void say(struct client* c, int kind, uint64_t number, const char* text) {
+  lukou_bus_Up up = {.incarnation = c->self,
+                     .kind = (uint8_t)kind,
+                     .role = c->role,
+                     .protocol = PROTOCOL_VERSION,
+                     .number = number,
+                     .step = c->next - 1,
+                     .text = (char*)text,
+                     .hash = ""};
   write_until_done(c, c->up, &up);
 }
 
@@ -99,9 +107,9 @@ static bool sees(dds_entity_t e, bool writer, uint64_t incarnation) {
   int count = writer ? dds_get_matched_subscriptions(e, handles, 64) : dds_get_matched_publications(e, handles, 64);
   bool found = false;
   for (int i = 0; i < count && !found; ++i) {
-    dds_builtintopic_endpoint_t *other =
+    dds_builtintopic_endpoint_t* other =
         writer ? dds_get_matched_subscription_data(e, handles[i]) : dds_get_matched_publication_data(e, handles[i]);
-    void *data = NULL;
+    void* data = NULL;
     size_t size = 0;
     if (other == NULL) continue;
     if (dds_qget_userdata(other->qos, &data, &size)) {
@@ -118,7 +126,7 @@ static bool sees(dds_entity_t e, bool writer, uint64_t incarnation) {
 /* The roster names everybody; before the first grant each one says that it sees all who face it. */
 static uint64_t clock_id, engine_id, controller_id;
 
-static void answer_roster(struct client *c) {
+static void answer_roster(struct client* c) {
   if (!sees(c->control, false, clock_id) || !sees(c->up, true, clock_id)) return;
   if (!sees(c->air, false, engine_id) || !sees(c->roadside, true, engine_id)) return;
   if (!sees(c->signal, false, controller_id)) return;
@@ -127,7 +135,7 @@ static void answer_roster(struct client *c) {
   say(c, UP_SEES, c->roster_version, "");
 }
 
-static void obey(struct client *c, const lukou_bus_Control *said) {
+static void obey(struct client* c, const lukou_bus_Control* said) {
   if (said->to != 0 && said->to != c->self) return;
   if (said->kind == WELCOME) {
     c->welcome = true;
@@ -140,7 +148,7 @@ static void obey(struct client *c, const lukou_bus_Control *said) {
     c->over = c->failed = true;
   } else if (said->kind == ROSTER && c->welcome) {
     for (uint32_t i = 0; i < said->roster_incarnation._length; ++i) {
-      const char *role = said->roster_role._buffer[i];
+      const char* role = said->roster_role._buffer[i];
       if (strcmp(role, "traffic-engine") == 0) engine_id = said->roster_incarnation._buffer[i];
       if (strcmp(role, "signal-controller") == 0) controller_id = said->roster_incarnation._buffer[i];
     }
@@ -158,8 +166,8 @@ static void obey(struct client *c, const lukou_bus_Control *said) {
   }
 }
 
-static void hear_clock(struct client *c) {
-  void *samples[16] = {NULL};
+static void hear_clock(struct client* c) {
+  void* samples[16] = {NULL};
   dds_sample_info_t infos[16];
   int count;
   while ((count = dds_take(c->control, samples, infos, 16, 16)) > 0) {
@@ -174,8 +182,8 @@ static void hear_clock(struct client *c) {
 }
 
 /* The signals are not needed here; but a reader that keeps all has to be emptied. */
-static void empty_signal(struct client *c) {
-  void *samples[16] = {NULL};
+static void empty_signal(struct client* c) {
+  void* samples[16] = {NULL};
   dds_sample_info_t infos[16];
   int count;
   while ((count = dds_take(c->signal, samples, infos, 16, 16)) > 0) {
@@ -187,11 +195,11 @@ static void empty_signal(struct client *c) {
 /* ---- the algorithm: an RSC as in idl/v2x.proto, written by hand ------------------------------------------------- */
 
 struct bytes {
-  uint8_t *at;
+  uint8_t* at;
   uint32_t size, room;
 };
 
-static void put(struct bytes *b, const void *from, uint32_t size) {
+static void put(struct bytes* b, const void* from, uint32_t size) {
   if (b->size + size > b->room) {
     b->room = 2 * (b->size + size);
     b->at = realloc(b->at, b->room);
@@ -200,23 +208,23 @@ static void put(struct bytes *b, const void *from, uint32_t size) {
   memcpy(b->at + b->size, from, size);
   b->size += size;
 }
-static void put_byte(struct bytes *b, uint8_t value) { put(b, &value, 1); }
-static void put_varint(struct bytes *b, uint64_t value) {
+static void put_byte(struct bytes* b, uint8_t value) { put(b, &value, 1); }
+static void put_varint(struct bytes* b, uint64_t value) {
   for (; value >= 128; value >>= 7) put_byte(b, (uint8_t)(value | 128));
   put_byte(b, (uint8_t)value);
 }
-static void put_number(struct bytes *b, uint32_t field, uint64_t value) {
+static void put_number(struct bytes* b, uint32_t field, uint64_t value) {
   put_varint(b, field << 3 | 0);
   put_varint(b, value);
 }
-static void put_signed(struct bytes *b, uint32_t field, int64_t value) {
+static void put_signed(struct bytes* b, uint32_t field, int64_t value) {
   put_number(b, field, (uint64_t)value << 1 ^ (uint64_t)(value >> 63));
 }
-static void put_id(struct bytes *b, uint32_t field, uint64_t value) { /* fixed64, little-endian */
+static void put_id(struct bytes* b, uint32_t field, uint64_t value) { /* fixed64, little-endian */
   put_varint(b, field << 3 | 1);
   for (int i = 0; i < 8; ++i) put_byte(b, (uint8_t)(value >> 8 * i));
 }
-static void put_message(struct bytes *b, uint32_t field, struct bytes *message) {
+static void put_message(struct bytes* b, uint32_t field, struct bytes* message) {
   put_varint(b, field << 3 | 2);
   put_varint(b, message->size);
   if (message->size > 0) put(b, message->at, message->size);
@@ -224,7 +232,7 @@ static void put_message(struct bytes *b, uint32_t field, struct bytes *message) 
 }
 
 /* 0.5 m/s2 for 0.2 s, or less if the following law wants less. */
-static void put_target(struct bytes *rsc, uint64_t car) {
+static void put_target(struct bytes* rsc, uint64_t car) {
   static struct bytes vehicle, part, point, path;
   put_id(&vehicle, 1, car);
   put_number(&part, 1, 1U << 12); /* speed up */
@@ -241,12 +249,12 @@ static void put_target(struct bytes *rsc, uint64_t car) {
   put_message(rsc, 5, &vehicle);
 }
 
-static void execute(struct client *c, const lukou_bus_Air *air) {
+static void execute(struct client* c, const lukou_bus_Air* air) {
   static struct bytes payload, rsc, part, senders, sequences, kinds, sizes, x, y, ends;
   const uint64_t station = UINT64_C(0x5253550000000000) + c->rsu;
   const double origin_m = 0.0;
   const uint8_t kind = FRAME_RSC;
-  struct bytes *columns[] = {&payload, &senders, &sequences, &kinds, &sizes, &x, &y, &ends};
+  struct bytes* columns[] = {&payload, &senders, &sequences, &kinds, &sizes, &x, &y, &ends};
   for (size_t i = 0; i < sizeof columns / sizeof *columns; ++i) columns[i]->size = 0;
   uint32_t frames = 0;
   for (uint32_t from = 0, targets = 0; from < air->frames.sender._length || targets > 0; ++from) {
@@ -281,7 +289,7 @@ static void execute(struct client *c, const lukou_bus_Air *air) {
   answer.producer = c->self, answer.epoch = c->epoch, answer.step = air->step, answer.rsu = c->rsu;
   answer.frames_heard = air->frames.sender._length;
 #define LEND(column, bytes) \
-  (column)._buffer = (void *)(bytes).at, (column)._length = (column)._maximum = frames, (column)._release = false
+  (column)._buffer = (void*)(bytes).at, (column)._length = (column)._maximum = frames, (column)._release = false
   LEND(answer.frames.sender, senders), LEND(answer.frames.sequence_number, sequences);
   LEND(answer.frames.kind, kinds), LEND(answer.frames.wire_bytes, sizes);
   LEND(answer.frames.antenna_x_m, x), LEND(answer.frames.antenna_y_m, y);
@@ -297,12 +305,12 @@ static void execute(struct client *c, const lukou_bus_Air *air) {
 }
 
 /* Takes the next batch of the air if the clock has granted its step. */
-static bool step(struct client *c) {
-  void *sample = NULL;
+static bool step(struct client* c) {
+  void* sample = NULL;
   dds_sample_info_t info;
   if (c->next > c->through || dds_take(c->air, &sample, &info, 1, 1) != 1) return false;
   if (info.valid_data) {
-    const lukou_bus_Air *air = sample;
+    const lukou_bus_Air* air = sample;
     if (air->step != c->next) {
       fprintf(stderr, "rsu_in_c: expected step %lld, got %lld\n", (long long)c->next, (long long)air->step);
       exit(1);
@@ -323,7 +331,8 @@ int main(void) {
   struct client c = {.through = -1};
   struct timespec now;
   clock_gettime(CLOCK_REALTIME, &now);
-  c.self = ((uint64_t)now.tv_sec << 30 | (uint64_t)now.tv_nsec) * UINT64_C(0x9E3779B97F4A7C15); /* no other start has it */
+  c.self =
+      ((uint64_t)now.tv_sec << 30 | (uint64_t)now.tv_nsec) * UINT64_C(0x9E3779B97F4A7C15); /* no other start has it */
   c.rsu = rsu == NULL ? 0 : (uint32_t)atoi(rsu);
   snprintf(c.role, sizeof c.role, "rsu%u", (unsigned)c.rsu);
   join_bus(&c, (uint32_t)atoi(domain), run);
@@ -335,8 +344,10 @@ int main(void) {
     if (step(&c)) continue;
     if (now_s() - said_s >= (c.welcome ? 0.2 : 0.05)) {
       said_s = now_s();
-      if (!c.welcome) say(&c, UP_JOIN, 0, "");
-      else say(&c, UP_PROGRESS, 0, c.next > c.through ? "clock" : "traffic-engine");
+      if (!c.welcome)
+        say(&c, UP_JOIN, 0, "");
+      else
+        say(&c, UP_PROGRESS, 0, c.next > c.through ? "clock" : "traffic-engine");
     }
     dds_attach_t woken;
     dds_waitset_wait(c.waitset, &woken, 1, c.roster_open || !c.welcome ? DDS_MSECS(10) : DDS_MSECS(100));

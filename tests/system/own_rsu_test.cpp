@@ -181,8 +181,7 @@ int main(int argc, char** argv) {
                "                    if i % 3 == 1: answer.advise_speed(car.id, 0.8 * heard.map.speed_limit_mps, 1.2, "
                "lukou.Binding.FOLLOWING)\n"
                "                if i % 3 == 2: answer.lane_speed(lane.name, 12.0, 1.5)");
-  const std::string run =
-      "lukou run paper --duration 200 --quiet --set record.guidance=true ";
+  const std::string run = "lukou run paper --duration 200 --quiet --set record.guidance=true ";
   const Finished in_cpp = shell(run + "--rsu ./kinds/build/kinds --out kinds_cpp");
   ASSERT_EQ(in_cpp.code, 0) << in_cpp.err;
   const Finished twin = shell(run + "--rsu '" + kPython + " kinds.py' --out kinds_python");

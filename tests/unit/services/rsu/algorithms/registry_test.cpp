@@ -25,7 +25,9 @@ TEST(AlgorithmRegistry, NamesAllForAWordThatIsNearToNone) {
   const auto made = make_algorithm("green_wave", {});
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().text().find("did you mean"), std::string::npos);
-  EXPECT_NE(made.error().text().find("actuated, arrive_on_green, cv_phase, eco, glosa, glosa_queue, max_pressure, none, platoon"), std::string::npos);
+  EXPECT_NE(made.error().text().find(
+                "actuated, arrive_on_green, cv_phase, eco, glosa, glosa_queue, max_pressure, none, platoon"),
+            std::string::npos);
 }
 
 TEST(AlgorithmRegistry, SaysWhatEachIsAndWhereItComesFrom) {
