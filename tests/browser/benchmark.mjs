@@ -94,9 +94,9 @@ async function memory(browser, run) {
   const heap = async ({ page }) => {
     const session = await page.context().newCDPSession(page);
     await session.send('HeapProfiler.collectGarbage');
-    const { usedSize } = await session.send('Runtime.getHeapUsage');
+    const { usedSize, backingStorageSize = 0 } = await session.send('Runtime.getHeapUsage');
     await session.detach();
-    return usedSize / 1e6;
+    return (usedSize + backingStorageSize) / 1e6;
   };
   run.ctl('pace', '100');
   for (let minute = 0; minute <= minutes; ++minute) {

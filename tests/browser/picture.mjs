@@ -8,16 +8,20 @@ const browser = await launch();
 const run = await startRun(['--pace', '100', '--seed', '1']);
 try {
   const { page, heard } = await openPage(browser, run.url, { colorScheme: 'light' });
-  await until(async () => (await stepOf(page)) > 6000, 'ten minutes simulated', 60_000);
-  run.ctl('pause', 'at', '700');
-  await until(async () => (await stepOf(page)) === 7000, 'the pause');
-  // With the card of a guided car.
-  const picture = page.locator('#picture');
-  const box = await picture.boundingBox();
-  const guided = carsInSight(heard.hello, heard.picture, box, 2.2).find(
-    ({ vehicle, spot }) => heard.picture.guidance[heard.picture.vehicle.indexOf(vehicle)] === 2 && spot.x > 270,
+  const reached = (step) => until(async () => (await stepOf(page)) >= step, `step ${step}`, 60_000);
+  await reached(6000);
+  run.ctl('pace', '10');
+  await reached(7140); // some seconds before a green, when cars are guided to it
+  run.ctl('pace', '1');
+  await until(() => heard.status.paceAchieved < 1.1, 'real time');
+  // With the card of a car that is guided, else of one that could be.
+  const box = await page.locator('#picture').boundingBox();
+  const place = (vehicle) => heard.picture.vehicle.indexOf(vehicle);
+  const cars = carsInSight(heard.hello, heard.picture, box, 2.2).filter(
+    ({ vehicle, equipped }) => equipped && heard.picture.state[place(vehicle)] !== 3,
   );
-  if (guided !== undefined) await page.mouse.click(box.x + guided.spot.x, box.y + guided.spot.y);
+  const chosen = cars.find(({ vehicle }) => heard.picture.guidance[place(vehicle)] === 2) ?? cars.at(-1);
+  if (chosen !== undefined) await page.mouse.click(box.x + chosen.spot.x, box.y + chosen.spot.y);
   await page.waitForTimeout(1500);
   await page.screenshot({ path: file });
 } finally {

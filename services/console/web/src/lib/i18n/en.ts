@@ -289,6 +289,8 @@ export const en = {
   'plan.save': 'Save as file',
   'plan.none': 'no plan yet',
   'plan.now': 'now {s} s',
+  'plan.deviates': 'heads deviate from the plan',
+  'plan.deviatesHint': 'With signals.actuation the controller ends and extends greens by itself',
   'plan.ok': 'No crossing streams meet.',
   'plan.unknown': 'Conflicts are checked when the plan is sent.',
   'find.hard': '{a} and {b} cross: both may go from {from} to {to} s',

@@ -286,6 +286,8 @@ export const zh: Record<Key, string> = {
   'plan.save': '存为文件',
   'plan.none': '尚无方案',
   'plan.now': '当前 {s} 秒',
+  'plan.deviates': '信号灯偏离方案',
+  'plan.deviatesHint': '使用 signals.actuation 时，信号机自行结束或延长绿灯',
   'plan.ok': '没有相互冲突的车流同时放行。',
   'plan.unknown': '发送时检查冲突。',
   'find.hard': '{a} 与 {b} 冲突：{from} 至 {to} 秒同时放行',
