@@ -56,7 +56,7 @@ struct SettledAdvice {
   std::optional<Step> first_used;  ///< empty: never, as the next
   std::optional<Step> last_used;
   std::string_view kind = "acceleration";  ///< name of an AdviceKind; text that lives for ever
-  std::optional<double> speed_mps{};       ///< that it asked for
+  std::optional<double> speed_mps;         ///< that it asked for
 };
 
 /// A row of requests.csv: what an RSU asks of the signal controller, or what becomes of it, changed.

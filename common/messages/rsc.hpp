@@ -25,10 +25,10 @@ struct LaterAcceleration {
 /// acceleration.
 struct GuidedPath {
   PlanePoint centre;  ///< where the RSU holds the car's centre to be at the issue; the standard requires it
-  double acceleration_mps2 = 0.0;     ///< [-20, 20], unit 0.01: decodes to exactly n / 100.0; 0 with a speed
-  std::uint32_t lifetime_ms = 0;      ///< from the issue, [10, 655340], unit 10
-  std::optional<double> speed_mps{};  ///< [0, 163.8], unit 0.02: decodes to exactly n / 50.0; then `later` is empty
-  std::vector<LaterAcceleration> later{};  ///< in the order of time, at most kMaxPathPoints - 1
+  double acceleration_mps2 = 0.0;        ///< [-20, 20], unit 0.01: decodes to exactly n / 100.0; 0 with a speed
+  std::uint32_t lifetime_ms = 0;         ///< from the issue, [10, 655340], unit 10
+  std::optional<double> speed_mps;       ///< [0, 163.8], unit 0.02: decodes to exactly n / 50.0; then `later` is empty
+  std::vector<LaterAcceleration> later;  ///< in the order of time, at most kMaxPathPoints - 1
 };
 
 /// Points of a path that we write and read; ours.
@@ -58,7 +58,7 @@ struct Coordination {
   std::uint16_t second_mark_ms = 0;           ///< when it was issued, [0, 59999]; see time_marks.hpp
   std::vector<VehicleCoordination> vehicles;  ///< at most 16
   std::uint16_t node = 0;                     ///< id of the intersection that the lanes lead to
-  std::vector<LaneSpeed> lanes{};             ///< at most 8
+  std::vector<LaneSpeed> lanes;               ///< at most 8
 };
 
 /// False if an acceleration, a speed, a time or a lifetime is not a number or does not fit its field, or if the points

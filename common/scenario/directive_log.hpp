@@ -20,11 +20,10 @@ struct Hearing {
 
 /// What makes a run differ from its scenario: with the scenario it reproduces the run byte for byte.
 struct DirectiveLog {
-  std::vector<Directive> sets;    ///< in the order in which they were accepted
-  std::vector<Hearing> hearings;  ///< in the order of their steps
-  std::optional<Step> stop;       ///< last step, if the operator ended the run
-  std::vector<ComputingDelay>
-      computed{};  ///< of RSUs whose time is measured, those above 0, in the order of their steps
+  std::vector<Directive> sets;           ///< in the order in which they were accepted
+  std::vector<Hearing> hearings;         ///< in the order of their steps
+  std::optional<Step> stop;              ///< last step, if the operator ended the run
+  std::vector<ComputingDelay> computed;  ///< of RSUs whose time is measured, those above 0, in the order of their steps
 };
 
 /// directives.textproto of a result folder. Errors: `file:line:column: what`.

@@ -15,8 +15,8 @@ struct Protocol {
   Step end = 0;             ///< last step
   Step signal_promise = 0;  ///< steps
   std::uint32_t rsus = 0;
-  std::string on_rsu_loss;           ///< "ABORT", "CONTINUE" or "WAIT"
-  std::vector<bool> rsu_measured{};  ///< by RSU: its computing time is measured and acts; two runs may differ then
+  std::string on_rsu_loss;         ///< "ABORT", "CONTINUE" or "WAIT"
+  std::vector<bool> rsu_measured;  ///< by RSU: its computing time is measured and acts; two runs may differ then
 
   [[nodiscard]] bool measures_time() const { return std::ranges::find(rsu_measured, true) != rsu_measured.end(); }
 };

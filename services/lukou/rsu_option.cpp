@@ -15,11 +15,13 @@ RsuOption rsu_option(const std::string& text) {
 Expected<RsuOptions> rsu_options(const std::string& name, const std::vector<std::string>& texts) {
   RsuOptions options;
   for (const std::string& text : texts) {
+    std::string where = name;
+    where.append(" ").append(text);
     const RsuOption option = rsu_option(text);
-    if (option.value.empty()) return Error{name + " " + text, "is empty"};
+    if (option.value.empty()) return Error{where, "is empty"};
     const bool fresh = option.rsu ? options.of.emplace(*option.rsu, option.value).second : options.all.empty();
     if (!fresh) {
-      return Error{name + " " + text,
+      return Error{where,
                    option.rsu ? "is the second for RSU " + std::to_string(*option.rsu) : "is the second for all RSUs"};
     }
     if (!option.rsu) options.all = option.value;

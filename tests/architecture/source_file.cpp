@@ -38,6 +38,12 @@ std::string code_of(const std::string& raw, bool& in_comment) {
   return code;
 }
 
+/// What a tool has written: installed packages, generated code, a built page, a lock file.
+bool is_made(const std::filesystem::path& path) {
+  const std::filesystem::path name = path.filename();
+  return name == "node_modules" || name == "generated" || name == "dist" || name == "package-lock.json";
+}
+
 }  // namespace
 
 SourceFile source_file(const std::string& path, const std::string& text) {
@@ -67,13 +73,15 @@ std::vector<SourceFile> read_tree(const std::filesystem::path& root, const std::
   std::vector<SourceFile> files;
   for (const std::string& folder : folders) {
     if (!std::filesystem::exists(root / folder)) continue;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
-      if (!entry.is_regular_file()) continue;
-      std::ifstream stream(entry.path(), std::ios::binary);
+    const std::filesystem::recursive_directory_iterator tree(root / folder);
+    for (auto entry = begin(tree); entry != end(tree); ++entry) {
+      if (is_made(entry->path())) entry.disable_recursion_pending();
+      if (!entry->is_regular_file() || is_made(entry->path())) continue;
+      std::ifstream stream(entry->path(), std::ios::binary);
       std::ostringstream text;
       text << stream.rdbuf();
       if (text.str().find('\0') != std::string::npos) continue;  // a picture
-      files.push_back(source_file(entry.path().lexically_relative(root).generic_string(), text.str()));
+      files.push_back(source_file(entry->path().lexically_relative(root).generic_string(), text.str()));
     }
   }
   std::ranges::sort(files, {}, &SourceFile::path);

@@ -1,9 +1,11 @@
 // Everything a user does with the page, against real processes.
 import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
 import { carsInSight, coloursAt, EQUIPPED, UNEQUIPPED } from './pixels.mjs';
-import { attach, axeFindings, launch, memberPid, openPage, startRun, stepOf, until } from './session.mjs';
+import { attach, axeFindings, launch, memberPid, openPage, runToEnd, startRun, stepOf, until } from './session.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -11,7 +13,8 @@ after(async () => browser?.close());
 
 const directives = (heard) => heard.events.filter(({ kind }) => kind === 'directive');
 const tab = (page, name) => page.getByRole('tab', { name }).click();
-const speed = (page, name) => page.getByRole('group', { name: 'Speed' }).getByRole('button', { name, exact: true }).click();
+const speed = (page, name) =>
+  page.getByRole('group', { name: 'Speed' }).getByRole('button', { name, exact: true }).click();
 
 /** Two ways to move a slider: keys, and the mouse at a share of its width. */
 async function slideTo(page, slider, share) {
@@ -19,7 +22,7 @@ async function slideTo(page, slider, share) {
   await page.mouse.click(box.x + 8 + (box.width - 16) * share, box.y + box.height / 2);
 }
 
-describe('flows and ratio', () => {
+describe('flows and ratio', { timeout: 150_000 }, () => {
   let run, page, heard, close;
   before(async () => {
     run = await startRun(['--pace', '10', '--set', 'run.on_overflow=CONTINUE']);
@@ -35,7 +38,11 @@ describe('flows and ratio', () => {
     await west.fill('3000');
     await west.press('Enter');
     await until(() => directives(heard).some(({ text }) => text === 'traffic.west.flow_veh_per_h=3000'), 'the echo');
-    for (const [side, share] of [['South', 0], ['East', 0], ['North', 0]]) {
+    for (const [side, share] of [
+      ['South', 0],
+      ['East', 0],
+      ['North', 0],
+    ]) {
       await slideTo(page, page.getByRole('slider', { name: side }), share);
     }
     await until(() => directives(heard).length >= 4, 'four directives');
@@ -85,9 +92,10 @@ describe('flows and ratio', () => {
   });
 });
 
-describe('speeds', () => {
-  test('every speed is asked for and kept; free ones and the keys too', async () => {
+describe('speeds', { timeout: 150_000 }, () => {
+  test('every speed is asked for and kept; free ones and the keys too', async (t) => {
     const run = await startRun(['--pace', '1']);
+    t.after(() => run.end());
     const { page, heard, close } = await openPage(browser, run.url);
     for (const [name, pace, lowest, highest] of [
       ['Very slow', 0.1, 0.05, 0.2],
@@ -110,11 +118,10 @@ describe('speeds', () => {
     await page.locator('#picture').press(']');
     await until(() => heard.status.pace === 100, 'the preset above');
     await close();
-    await run.end();
   });
 });
 
-describe('the signal plan', () => {
+describe('the signal plan', { timeout: 150_000 }, () => {
   let run, page, heard, panel, close;
   before(async () => {
     run = await startRun(['--pace', '10']);
@@ -172,12 +179,26 @@ describe('the signal plan', () => {
     await panel.getByRole('button', { name: 'Apply' }).click();
     await until(() => directives(heard).some(({ text }) => text.startsWith('signals.plan=')), 'the directive');
     const asked = Number(directives(heard).findLast(({ text }) => text.startsWith('signals.plan=')).step);
-    const taken = await until(() => heard.pictures.find((p) => p.program && p.program.lanes[0].steps[0] === 410), 'the new plan', 40_000);
+    const taken = await until(
+      () => heard.pictures.find((p) => p.program && p.program.lanes[0].steps[0] === 410),
+      'the new plan',
+      40_000,
+    );
     // The paper's cycles begin at multiples of 900 steps: the new plan's first one at the next of them.
     assert.equal(Number(taken.programFrom) % 900, 0);
     assert.ok(Number(taken.programFrom) >= asked);
-    await until(() => heard.pictures.some((p) => (Number(p.step) - Number(taken.programFrom)) % 900 === 0 ||
-      ((Number(p.step) - Number(taken.programFrom)) % 900 >= 410 && (Number(p.step) - Number(taken.programFrom)) % 900 < 440 && p.heads[0] === 2)), 'yellow', 60_000);
+    await until(
+      () =>
+        heard.pictures.some(
+          (p) =>
+            (Number(p.step) - Number(taken.programFrom)) % 900 === 0 ||
+            ((Number(p.step) - Number(taken.programFrom)) % 900 >= 410 &&
+              (Number(p.step) - Number(taken.programFrom)) % 900 < 440 &&
+              p.heads[0] === 2),
+        ),
+      'yellow',
+      60_000,
+    );
     await panel.getByText('as it runs').waitFor();
   });
 
@@ -204,7 +225,9 @@ describe('the signal plan', () => {
     await text.fill(before.replace('cycle_s: 90', 'cycle_s: 80'));
     await page.getByRole('button', { name: 'Read' }).click();
     await page.getByText('the cycle is 80 s').waitFor();
-    await text.fill(before.replaceAll('duration_s: 41', 'duration_s: 40').replaceAll('YELLOW duration_s: 3', 'YELLOW duration_s: 4'));
+    await text.fill(
+      before.replaceAll('duration_s: 41', 'duration_s: 40').replaceAll('YELLOW duration_s: 3', 'YELLOW duration_s: 4'),
+    );
     await page.getByRole('button', { name: 'Read' }).click();
     assert.equal(await valueOf(0), 40);
     await panel.getByRole('button', { name: 'Discard' }).click();
@@ -223,7 +246,7 @@ describe('the signal plan', () => {
   });
 });
 
-describe('looking', () => {
+describe('looking', { timeout: 150_000 }, () => {
   let run, page, heard, close, errors;
   before(async () => {
     run = await startRun(['--pace', '10']);
@@ -256,7 +279,9 @@ describe('looking', () => {
 
   test('a car that is clicked shows its card and its place in the plane of figure 5; follow keeps it in the middle', async () => {
     const box = await page.locator('#picture').boundingBox();
-    const car = carsInSight(heard.hello, heard.picture, box, 2.2).find(({ spot }) => spot.x > 300 && spot.y < box.height - 120 && spot.y > 100);
+    const car = carsInSight(heard.hello, heard.picture, box, 2.2).find(
+      ({ spot }) => spot.x > 300 && spot.y < box.height - 120 && spot.y > 100,
+    );
     await page.mouse.click(box.x + car.spot.x, box.y + car.spot.y);
     const card = page.getByRole('region', { name: `Car ${car.vehicle}` });
     await card.waitFor();
@@ -265,7 +290,10 @@ describe('looking', () => {
     await card.getByRole('button', { name: 'Follow' }).click();
     await page.locator('#picture').press(' ');
     await until(async () => {
-      const { colours } = await coloursAt(page, [{ x: box.width / 2 + 6, y: box.height / 2 }, { x: box.width / 2, y: box.height / 2 + 6 }]);
+      const { colours } = await coloursAt(page, [
+        { x: box.width / 2 + 6, y: box.height / 2 },
+        { x: box.width / 2, y: box.height / 2 + 6 },
+      ]);
       return colours.some((colour) => colour[3] > 200);
     }, 'the car in the middle');
     await page.locator('#picture').press('Escape');
@@ -276,8 +304,11 @@ describe('looking', () => {
   test('scrub back, and go live', async () => {
     const slider = page.getByRole('slider', { name: 'Look back' });
     await slideTo(page, slider, 0.5);
-    const then = await until(() => stepOf(page).then((s) => (s < Number(heard.picture.step) - 100 ? s : 0)), 'an earlier picture');
-    await page.getByText('looking back').waitFor();
+    const then = await until(
+      () => stepOf(page).then((s) => (s < Number(heard.picture.step) - 100 ? s : 0)),
+      'an earlier picture',
+    );
+    await page.getByText(/looking back [\d.]+ s/).waitFor();
     await page.waitForTimeout(500);
     assert.equal(await stepOf(page), then); // it stands while the run goes on
     await page.locator('#picture').press(',');
@@ -316,9 +347,10 @@ describe('looking', () => {
   });
 });
 
-describe('two viewers', () => {
-  test('one acts, the other watches, and control is handed over in sight of both', async () => {
+describe('two viewers', { timeout: 150_000 }, () => {
+  test('one acts, the other watches, and control is handed over in sight of both', async (t) => {
     const run = await startRun(['--pace', '1']);
+    t.after(() => run.end());
     const one = await openPage(browser, run.url);
     const two = await openPage(browser, run.url);
     await one.page.getByRole('button', { name: 'Take control' }).click();
@@ -341,13 +373,13 @@ describe('two viewers', () => {
     await third.end();
     await one.close();
     await two.close();
-    await run.end();
   });
 });
 
-describe('what goes wrong, and the end', () => {
-  test('a killed RSU is said, with its process and the time', async () => {
+describe('what goes wrong, and the end', { timeout: 150_000 }, () => {
+  test('a killed RSU is said, with its process and the time', async (t) => {
     const run = await startRun(['--pace', '10', '--set', 'run.on_rsu_loss=CONTINUE']);
+    t.after(() => run.end());
     const { page, heard, close } = await openPage(browser, run.url);
     await until(async () => (await stepOf(page)) > 100, 'the run moves');
     process.kill(memberPid(run, 'lukou-rsu'), 'SIGKILL');
@@ -357,19 +389,81 @@ describe('what goes wrong, and the end', () => {
     const at = await stepOf(page);
     await until(async () => (await stepOf(page)) > at + 50, 'the run goes on without it');
     await close();
-    await run.end();
   });
 
-  test('End asks first, and the page says that the run has ended', async () => {
+  test('a console that is killed is said, and found again when it is back', async (t) => {
     const run = await startRun(['--pace', '10']);
+    t.after(() => run.end());
+    const first = await attach(run.id);
+    const { page, errors, close } = await openPage(browser, first.url);
+    await first.end('SIGKILL');
+    await page.getByText('connection lost').waitFor();
+    assert.ok(await page.getByRole('button', { name: 'Pause' }).isDisabled());
+    const second = await attach(run.id, new URL(first.url).port);
+    t.after(() => second.end());
+    await page.getByRole('status').getByText('running').waitFor();
+    const step = await stepOf(page);
+    await until(async () => (await stepOf(page)) > step, 'the picture moves again');
+    // The browser itself reports each attempt that found nobody.
+    assert.deepEqual(
+      errors.filter((text) => !text.includes('ERR_CONNECTION_REFUSED')),
+      [],
+    );
+    await close();
+  });
+
+  test('End asks first, and the page says that the run has ended', async (t) => {
+    const run = await startRun(['--pace', '10']);
+    t.after(() => run.end());
     const { page, close } = await openPage(browser, run.url);
     await page.getByRole('button', { name: 'End', exact: true }).click();
     await page.getByRole('dialog').getByRole('button', { name: 'Cancel' }).click();
     await page.getByRole('button', { name: 'End', exact: true }).click();
     await page.getByRole('dialog').getByRole('button', { name: 'End' }).click();
-    assert.equal(await run.process.ended, 0);
-    await page.getByText(/ended|connection lost/).first().waitFor();
+    // The console goes on showing the end for as long as somebody looks.
+    await page.getByRole('status').getByText('ended', { exact: true }).waitFor();
+    assert.ok(await page.getByRole('button', { name: 'Step' }).isDisabled());
     await close();
-    await run.end();
+    assert.equal(await run.process.ended, 0);
+  });
+});
+
+describe('the results', { timeout: 150_000 }, () => {
+  test('a session of clicks, replayed from its directives, gives the same bytes again', async (t) => {
+    const length = ['--duration', '200'];
+    const run = await startRun(['--pace', '20', ...length]);
+    t.after(() => run.end());
+    const { page, heard, close } = await openPage(browser, run.url);
+    const ratio = page.getByRole('spinbutton', { name: 'Equipped ratio' });
+    await ratio.fill('0.4');
+    await ratio.press('Enter');
+    await page.locator('#picture').press(' ');
+    await until(() => heard.status.phase === 'paused', 'paused');
+    await slideTo(page, page.getByRole('slider', { name: 'West' }), 0.8);
+    await page.locator('#picture').press('.');
+    await tab(page, 'Signals');
+    await page.getByRole('tabpanel').getByRole('combobox').selectOption('PROTECTED_LEFT');
+    await page.getByRole('button', { name: 'Apply' }).click();
+    await until(() => directives(heard).length === 3, 'three directives');
+    await speed(page, 'Max');
+    await page.locator('#picture').press(' ');
+    await until(() => heard.status.phase === 'ended', 'the end', 60_000);
+    await close();
+    assert.equal(await run.process.ended, 0);
+    const again = join(run.out, '..', 'again');
+    await runToEnd([
+      '--quiet',
+      '--out',
+      again,
+      '--replay-directives',
+      join(run.out, 'directives.textproto'),
+      ...length,
+    ]);
+    // Facts of the wall clock stand in these two and nowhere else.
+    const compared = readdirSync(run.out).filter((name) => !['timing.json', 'operator.log'].includes(name));
+    assert.ok(compared.includes('car.csv') && compared.includes('directives.textproto'), compared.join());
+    for (const name of compared) {
+      assert.ok(readFileSync(join(run.out, name)).equals(readFileSync(join(again, name))), `${name} differs`);
+    }
   });
 });

@@ -32,7 +32,9 @@ export function carsInSight(hello, picture, box, backM) {
     const lane = hello.lanes[picture.lane[i]];
     const ends = [0, hello.vehicleLengthM].map((back) => at(placeOn(lane, picture.positionM[i] - back)));
     const inside = ends.every((p) => p.x > 12 && p.y > 12 && p.x < box.width - 12 && p.y < box.height - 12);
-    if (!inside) return;
+    const pastLineM = picture.positionM[i] - lane.stopLineM;
+    const underLamp = pastLineM > -1 && pastLineM < 7; // the heads are drawn over the cars
+    if (!inside || underLamp) return;
     cars.push({ vehicle, equipped: picture.equipped[i] !== 0, spot: at(placeOn(lane, picture.positionM[i] - backM)) });
   });
   return cars;
@@ -50,7 +52,9 @@ export function coloursAt(page, places, counted = []) {
       const canvas = document.getElementById('picture');
       const ratio = canvas.width / canvas.clientWidth;
       const context = canvas.getContext('2d');
-      const colours = spots.map(({ x, y }) => [...context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data]);
+      const colours = spots.map(({ x, y }) => [
+        ...context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data,
+      ]);
       const all = context.getImageData(0, 0, canvas.width, canvas.height).data;
       const counts = wanted.map(([r, g, b]) => {
         let n = 0;

@@ -19,22 +19,35 @@ const environment = { ...process.env, LUKOU_SCENARIOS: join(root, 'launch_script
 
 const URL_LINE = /https?:\/\/[\d.]+:\d+\/\S*/;
 
+const children = new Set();
+process.on('exit', () => children.forEach((child) => child.kill('SIGTERM')));
+for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(1));
+
 class Process {
   constructor(command, args, extra = {}) {
     this.output = '';
     this.child = spawn(command, args, { env: { ...environment, ...extra }, stdio: ['ignore', 'pipe', 'pipe'] });
+    children.add(this.child);
     for (const stream of [this.child.stdout, this.child.stderr]) {
       stream.setEncoding('utf8');
       stream.on('data', (text) => (this.output += text));
     }
     this.ended = new Promise((resolve) => this.child.on('exit', (code, signal) => resolve(code ?? signal)));
+    void this.ended.then(() => children.delete(this.child));
   }
 
   async end(signal = 'SIGINT') {
     this.child.kill(signal);
+    // A run that has ended is still shown to whoever looks; a second interrupt ends that too.
+    const again = setInterval(() => {
+      if (!this.output.includes('shows the end')) return;
+      this.child.kill(signal);
+      clearInterval(again);
+    }, 100);
     const killer = setTimeout(() => this.child.kill('SIGKILL'), 15_000);
     const code = await this.ended;
     clearTimeout(killer);
+    clearInterval(again);
     return code;
   }
 }
@@ -54,43 +67,57 @@ export async function until(probe, what, limitMs = 20_000) {
 export async function startRun(args = [], scenario = 'paper') {
   const folder = mkdtempSync(join(tmpdir(), 'lukou-browser-'));
   const out = join(folder, 'result');
-  const process = new Process(lukou, ['run', scenario, '--console=0', '--out', out, ...args]);
+  const started = new Process(lukou, ['run', scenario, `--console=${firstPort()}`, '--out', out, ...args]);
   try {
-    const url = await until(() => process.output.match(URL_LINE)?.[0], `address of the console in: ${process.output}`);
-    const id = await until(() => runIds().find((found) => process.output.includes(found)), 'id of the run');
+    const url = await until(() => started.output.match(URL_LINE)?.[0], `address of the console in: ${started.output}`);
+    const id = await until(() => runIds().find((found) => started.output.includes(found)), 'id of the run');
     return {
       url,
       id,
       out,
-      process,
+      process: started,
       ctl: (...request) => execFileSync(lukou, ['ctl', id, ...request], { env: environment, encoding: 'utf8' }),
       async end() {
-        const code = await process.end();
+        const code = await started.end();
         rmSync(folder, { recursive: true, force: true });
         return code;
       },
     };
   } catch (error) {
-    await process.end('SIGTERM');
-    throw new Error(`${error.message}\n${process.output}`);
+    await started.end('SIGTERM');
+    throw new Error(`${error.message}\n${started.output}`);
   }
 }
 
+/** The server takes this port or the next that is free: far from where people look, different for every test program. */
+const firstPort = () => 20_000 + (process.pid % 20_000);
+
 function runIds() {
   const listed = execFileSync(lukou, ['ctl', 'list'], { env: environment, encoding: 'utf8' });
-  return listed.split('\n').map((line) => line.split(/\s+/)[0]).filter((id) => id !== '');
+  return listed
+    .split('\n')
+    .map((line) => line.split(/\s+/)[0])
+    .filter((id) => id !== '');
+}
+
+/** Runs without a console, to the end. */
+export async function runToEnd(args, scenario = 'paper') {
+  const run = new Process(lukou, ['run', scenario, ...args]);
+  const code = await run.ended;
+  if (code !== 0) throw new Error(`exit code ${code}\n${run.output}`);
 }
 
 /** A second console on a run. */
-export async function attach(id) {
-  const process = new Process(join(programs, 'lukou-console'), ['--attach', id, '--port', '0']);
-  const url = await until(() => process.output.match(URL_LINE)?.[0], `address of the console in: ${process.output}`);
-  return { url, end: () => process.end() };
+export async function attach(id, port = 0) {
+  const console = new Process(join(programs, 'lukou-console'), ['--attach', id, '--port', String(port)]);
+  const url = await until(() => console.output.match(URL_LINE)?.[0], `address of the console in: ${console.output}`);
+  return { url, end: (signal) => console.end(signal) };
 }
 
-/** Pid of the process of a run that has this role, found as the parent's child. */
+/** Pid of one of the processes that a run started. */
 export function memberPid(run, program) {
-  const listed = execFileSync('ps', ['-o', 'pid=,args=', '--ppid', String(run.process.child.pid)], { encoding: 'utf8' });
+  const parent = String(run.process.child.pid);
+  const listed = execFileSync('ps', ['-o', 'pid=,args=', '--ppid', parent], { encoding: 'utf8' });
   const line = listed.split('\n').find((text) => text.includes(program));
   if (line === undefined) throw new Error(`no ${program} among: ${listed}`);
   return Number(line.trim().split(/\s+/)[0]);

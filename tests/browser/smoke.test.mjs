@@ -21,31 +21,29 @@ after(async () => {
   await run?.end();
 });
 
-const button = (name) => page.getByRole('button', { name, exact: false });
-
-test('a run that waits stands at step 0 until Start', async () => {
+test('a run that waits stands at step 0 until Start', { timeout: 60_000 }, async () => {
   assert.equal(await stepOf(page), 0);
-  await button('Start').click();
+  await page.getByRole('button', { name: '▶ Start' }).click();
   await until(async () => (await stepOf(page)) > 5, 'the run moves');
 });
 
-test('a flow that is set before the cars come is followed by the arrivals', async () => {
-  for (const side of ['South', 'East', 'North']) {
+test('a flow that is set before the cars come is followed by the arrivals', { timeout: 60_000 }, async () => {
+  for (const side of ['South', 'North']) {
     await page.getByRole('spinbutton', { name: side }).fill('0');
     await page.getByRole('spinbutton', { name: side }).press('Enter');
   }
   const events = () => heard.events.filter(({ kind }) => kind === 'directive').map(({ text }) => text);
-  await until(() => events().length >= 3, 'three directives');
+  await until(() => events().length >= 2, 'two directives');
   assert.ok(events().includes('traffic.south.flow_veh_per_h=0'), events().join());
 });
 
-test('the speed follows the buttons, and the clock says what it achieved', async () => {
+test('the speed follows the buttons, and the clock says what it achieved', { timeout: 60_000 }, async () => {
   await page.getByRole('group', { name: 'Speed' }).getByRole('button', { name: 'Fast' }).click();
   await until(() => heard.status?.pace === 100, 'pace 100');
   await until(async () => (await stepOf(page)) > 3000, 'five minutes simulated', 30_000);
 });
 
-test('pausing with Space stops it; one step is one step', async () => {
+test('pausing with Space stops it; one step is one step', { timeout: 60_000 }, async () => {
   await page.locator('#picture').press(' ');
   await until(() => heard.status?.phase === 'paused', 'paused');
   const granted = Number(heard.status.granted);
@@ -54,55 +52,70 @@ test('pausing with Space stops it; one step is one step', async () => {
   await until(async () => (await stepOf(page)) === granted + 1, 'one step more');
 });
 
-test('only the approach with a flow has new cars', () => {
+test('only the approaches with a flow have new cars', () => {
   const [west, south, east, north] = heard.statistics.arrived;
   assert.ok(west > 80, `west ${west}`); // 1800 veh/h for 300 s are 150 on average
-  assert.ok(south + east + north < 40, `others ${south} ${east} ${north}`);
+  assert.ok(east > 80, `east ${east}`);
+  assert.ok(south + north < 20, `south ${south}, north ${north}`);
 });
 
-test('the cars on the screen are those of the picture, blue with a unit, orange without', async () => {
-  await page.getByRole('group', { name: 'Intersection' }).getByRole('button', { name: 'Last 50 m' }).click();
-  const step = await stepOf(page);
-  const picture = heard.pictures.findLast((p) => Number(p.step) === step);
-  const box = await page.locator('#picture').boundingBox();
-  await page.waitForTimeout(300);
-  const cars = carsInSight(heard.hello, picture, box, 0.6); // the bonnet: body colour
-  assert.ok(cars.length >= 3, `${cars.length} cars in sight`);
-  const { colours } = await coloursAt(page, cars.map((car) => car.spot));
-  cars.forEach((car, i) => {
-    const wanted = car.equipped ? EQUIPPED : UNEQUIPPED;
-    assert.ok(near(colours[i], wanted), `car ${car.vehicle}, equipped ${car.equipped}: ${colours[i]}`);
-  });
-  assert.ok(Number(await page.locator('#picture').getAttribute('data-cars')) >= cars.length);
-});
+test(
+  'the cars on the screen are those of the picture, blue with a unit, orange without',
+  { timeout: 60_000 },
+  async () => {
+    await page.getByRole('group', { name: 'Intersection' }).getByRole('button', { name: 'Last 50 m' }).click();
+    const step = await stepOf(page);
+    const picture = heard.pictures.findLast((p) => Number(p.step) === step);
+    const box = await page.locator('#picture').boundingBox();
+    await page.waitForTimeout(300);
+    const cars = carsInSight(heard.hello, picture, box, 0.6); // the bonnet: body colour
+    assert.ok(cars.length >= 2, `${cars.length} cars in sight`);
+    const { colours } = await coloursAt(
+      page,
+      cars.map((car) => car.spot),
+    );
+    cars.forEach((car, i) => {
+      const wanted = car.equipped ? EQUIPPED : UNEQUIPPED;
+      assert.ok(near(colours[i], wanted), `car ${car.vehicle}, equipped ${car.equipped}: ${colours[i]}`);
+    });
+    assert.ok(Number(await page.locator('#picture').getAttribute('data-cars')) >= cars.length);
+  },
+);
 
-test('the stop lines have the colours of their heads', async () => {
+test('the stop lines have the colours of their heads', { timeout: 60_000 }, async () => {
   const picture = heard.pictures.at(-1);
   const box = await page.locator('#picture').boundingBox();
-  const { colours } = await coloursAt(page, heard.hello.lanes.map((_, lane) => stopLine(heard.hello, lane, box)));
+  const { colours } = await coloursAt(
+    page,
+    heard.hello.lanes.map((_, lane) => stopLine(heard.hello, lane, box)),
+  );
   picture.heads.forEach((aspect, lane) => {
     const wanted = aspect === 3 ? GREEN : RED; // the paper's plan has no yellow
     assert.ok(near(colours[lane], wanted), `${heard.hello.lanes[lane].name} shows ${aspect}: ${colours[lane]}`);
   });
 });
 
-test('a plan that lets crossing streams go together is refused in words, a good one is taken', async () => {
-  await page.getByRole('tab', { name: 'Signals' }).click();
-  const panel = page.getByRole('tabpanel');
-  await panel.locator('[data-lane=SC]').click();
-  await panel.getByRole('spinbutton', { name: 'Time line' }).fill('40');
-  await panel.getByRole('spinbutton', { name: 'Time line' }).press('Enter');
-  await panel.getByRole('button', { name: 'Set green behind the line' }).click();
-  assert.match(await panel.getByRole('list').last().innerText(), /SC.*cross|cross.*SC/);
-  await panel.getByRole('button', { name: 'Apply' }).click();
-  await panel.getByRole('alert').getByText('crossing streams').waitFor();
-  await panel.getByRole('button', { name: 'Undo' }).click();
-  await panel.getByRole('combobox').selectOption('PAPER_YELLOW');
-  await panel.getByRole('button', { name: 'Apply' }).click();
-  await panel.getByText('accepted').waitFor();
-});
+test(
+  'a plan that lets crossing streams go together is refused in words, a good one is taken',
+  { timeout: 60_000 },
+  async () => {
+    await page.getByRole('tab', { name: 'Signals' }).click();
+    const panel = page.getByRole('tabpanel');
+    await panel.locator('[data-lane=SC]').click();
+    await panel.getByRole('spinbutton', { name: 'Time line' }).fill('40');
+    await panel.getByRole('spinbutton', { name: 'Time line' }).press('Enter');
+    await panel.getByRole('button', { name: 'Set green behind the line' }).click();
+    assert.match(await panel.getByRole('list').last().innerText(), /SC.*cross|cross.*SC/);
+    await panel.getByRole('button', { name: 'Apply' }).click();
+    await panel.getByRole('alert').getByText('crossing streams').waitFor();
+    await panel.getByRole('button', { name: 'Undo' }).click();
+    await panel.getByRole('combobox').selectOption('PAPER_YELLOW');
+    await panel.getByRole('button', { name: 'Apply' }).click();
+    await panel.getByText('accepted').waitFor();
+  },
+);
 
-test('nothing that axe-core calls serious, no error in the page', async () => {
+test('nothing that axe-core calls serious, no error in the page', { timeout: 60_000 }, async () => {
   assert.deepEqual(await axeFindings(page), []);
   assert.deepEqual(errors, []);
 });

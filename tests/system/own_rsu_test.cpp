@@ -41,6 +41,7 @@ class OwnRsu : public testing::Test {
                             {"PATH=" + prefix() + "/bin:/usr/bin:/bin", "LUKOU_SCENARIOS="}, "/bin/sh"),
                     limit_s);
   }
+  static std::filesystem::path in_home(const std::string& name) { return *home_ / name; }
   /// Writes a Python RSU whose on_step() does nothing before step 100 and then `body`.
   static void write_python(const std::string& name, const std::string& body) {
     std::ofstream file(*home_ / name);
@@ -316,6 +317,49 @@ TEST_F(OwnRsu, KeepsNoViewBeyondItsStep) {
   const Finished run = run_python("keeps", "Rsu.kept = getattr(Rsu, 'kept', heard); Rsu.kept.time_s");
   EXPECT_EQ(run.code, 3);
   EXPECT_NE(run.err.find("a view is valid during on_step only"), std::string::npos) << run.err;
+}
+
+TEST_F(OwnRsu, RunsInsideThePythonProcessWithTheSameBytes) {
+  std::ofstream(in_home("study.py")) << R"(import sys
+import lukou
+
+class Rsu(lukou.RsuAlgorithm):
+    def __init__(self, setup):
+        super().__init__()
+    def on_step(self, heard, answer):
+        for car in heard.cars.id:
+            answer.advise_speed(int(car), 8.0 + heard.step % 5, 0.5, lukou.Binding.FOLLOWING)
+
+class Broken(Rsu):
+    def on_step(self, heard, answer):
+        if heard.step == 50:
+            raise KeyError("out of ideas")
+
+if len(sys.argv) == 1:
+    sys.exit(lukou.run_rsu(Rsu))
+run = lukou.run("paper", Rsu, set=["record.guidance=true"], seed=3, duration=100, out="study")
+print(run.ended, run.exit_code, run.summary["advice_sent"] > 1000)
+for wrong in [lambda: lukou.run("paper", set=["run.seed=x"]),
+              lambda: lukou.run("paper", {1: Broken}, duration=20, out="study_broken")]:
+    try:
+        wrong()
+    except (ValueError, KeyError) as error:
+        print(type(error).__name__, error)
+)";
+  const Finished inside =
+      shell("PYTHONPATH=" + prefix() + "/" LUKOU_LIBRARY_FOLDER "/lukou/python env -u LUKOU_SCENARIOS " + kPython +
+            " study.py inside");
+  ASSERT_EQ(inside.code, 0) << inside.err;
+  EXPECT_NE(inside.out.find("done 0 True"), std::string::npos) << inside.out;
+  EXPECT_NE(inside.out.find("ValueError --set run.seed=x"), std::string::npos) << inside.out;
+  EXPECT_NE(inside.out.find("KeyError 'out of ideas'"), std::string::npos) << inside.out;
+  expect_sound("study_broken", 49);
+  EXPECT_NE(shell("cat study_broken/manifest.json").out.find("lost:rsu1"), std::string::npos);
+  const Finished outside = shell(
+      std::string("lukou run paper --quiet --duration 100 --seed 3 --set record.guidance=true --out apart --rsu '") +
+      kPython + " study.py'");
+  ASSERT_EQ(outside.code, 0) << outside.err;
+  EXPECT_EQ(differing_files(in_home("study"), in_home("apart")), std::vector<std::string>{});
 }
 
 TEST_F(OwnRsu, NeedsAPlainNameAndAFreePlace) {

@@ -8,6 +8,7 @@
 #include "services/lukou/launch/result_of_run.hpp"
 #include "services/lukou/launch/run_request.hpp"
 #include "services/recorder/recorder_node.hpp"
+#include "services/rsu/process/rsu_setup.hpp"
 #include "services/rsu/rsu_config.hpp"
 #include "services/rsu/rsu_node.hpp"
 #include "services/signal_controller/signal_controller_node.hpp"
@@ -22,12 +23,12 @@ constexpr std::size_t kRecentSignals = 4;
 /// All nodes of a run in one thread, in the order that the edges give: controller, engine, recorder, RSUs.
 class InProcessRun {
  public:
-  /// `replays`: the log is that of an earlier run.
-  InProcessRun(scenario::Resolved scenario, scenario::DirectiveLog log, bool replays)
-      : scenario_(std::move(scenario)),
+  InProcessRun(const RunRequest& request, scenario::DirectiveLog log)
+      : scenario_(request.scenario),
         protocol_(scenario::protocol(scenario_)),
         log_(std::move(log)),
-        replays_(replays) {
+        replays_(!request.replay.empty()),
+        make_rsu_(request.make_rsu) {
     if (log_.stop) protocol_.end = std::min(protocol_.end, *log_.stop);
   }
 
@@ -53,6 +54,8 @@ class InProcessRun {
   [[nodiscard]] Step end() const { return protocol_.end; }
   [[nodiscard]] RecorderNode& recorder() { return *recorder_; }
   [[nodiscard]] std::size_t cars() const { return cars_; }
+  /// The RSU that computes, or computed last.
+  [[nodiscard]] std::uint32_t computing() const { return computing_; }
 
   Expected<Done> step(Step k) {
     if (auto done = follow_hearings(k); !done) return done;
@@ -72,7 +75,8 @@ class InProcessRun {
     }
     if (auto done = engine_->step(k, engine_signal_.take(k), heard_, traffic_, air_); !done) return done;
     cars_ = traffic_.vehicle.size();
-    for (auto& rsu : rsus_) {
+    for (computing_ = 0; computing_ < protocol_.rsus; ++computing_) {
+      RsuLife& rsu = rsus_[computing_];
       if (rsu.node && k >= rsu.first) rsu.node->step(k, rsu.signal.take(k), air_, rsu.answer);
     }
     return recorder_->step(traffic_, recorder_signal_.take(k));
@@ -103,10 +107,16 @@ class InProcessRun {
     return Done{};
   }
 
+  Expected<std::unique_ptr<RsuAlgorithm>> algorithm_of(const RsuConfig& config) {
+    const auto own = make_rsu_.find(config.rsu);
+    if (own == make_rsu_.end()) return make_algorithm(config.algorithm, config.parameters);
+    return own->second(setup_of(config));
+  }
+
   Expected<Done> start(std::uint32_t rsu, std::uint32_t epoch) {
     const auto config = rsu_config(scenario_.message(), rsu);
     if (!config) return config.error();
-    auto algorithm = make_algorithm(config.value().algorithm, config.value().parameters);
+    auto algorithm = algorithm_of(config.value());
     if (!algorithm) return algorithm.error();
     RsuLife& life = rsus_[rsu];
     life.node.emplace(config.value(), std::move(algorithm).value());
@@ -165,7 +175,8 @@ class InProcessRun {
   scenario::Resolved scenario_;
   scenario::Protocol protocol_;
   scenario::DirectiveLog log_;
-  bool replays_;
+  bool replays_;  ///< the log is that of an earlier run
+  std::map<std::uint32_t, MakeAlgorithm> make_rsu_;
   std::size_t next_directive_ = 0;
   std::optional<Actuation> actuation_;
   std::optional<SignalControllerNode> controller_;
@@ -179,7 +190,18 @@ class InProcessRun {
   TrafficBatch traffic_;
   AirBatch air_;
   std::size_t cars_ = 0;
+  std::uint32_t computing_ = 0;
 };
+
+/// A step. What an algorithm of a user throws leaves as it is, with the record closed before.
+Expected<Done> step_or_close(InProcessRun& run, Step k) {
+  try {
+    return run.step(k);
+  } catch (...) {
+    static_cast<void>(run.recorder().close("lost:" + rsu_role(run.computing()), "its algorithm threw an exception"));
+    throw;
+  }
+}
 
 }  // namespace
 
@@ -203,7 +225,7 @@ RunReport run_in_process(const RunRequest& request, const Listener& listener) {
   const bool stopped_in_log = log.stop.has_value();
   const auto folder = create_result(request);
   if (!folder) return refuse(process::kExitIo, folder.error());
-  InProcessRun run(request.scenario, std::move(log), !request.replay.empty());
+  InProcessRun run(request, std::move(log));
   if (auto done = run.build(folder.value()); !done) return refuse(process::kExitUsage, done.error());
 
   RunEnd end;
@@ -212,7 +234,7 @@ RunReport run_in_process(const RunRequest& request, const Listener& listener) {
   double told_s = start_s;
   bool early = false;
   for (Step k = 0; k <= run.end() && !early; ++k) {
-    if (auto done = run.step(k); !done) {
+    if (auto done = step_or_close(run, k); !done) {
       static_cast<void>(run.recorder().close("disk", done.error().text()));
       end.io_failed = true;
       process::log_error(done.error().text());

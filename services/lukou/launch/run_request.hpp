@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/scenario/scenario.hpp"
+#include "services/rsu/process/run_rsu.hpp"
 
 namespace lukou::launch {
 
@@ -19,9 +20,11 @@ struct RunRequest {
   std::string run_id;  ///< empty: made from name, seed and a random part
   bool in_process = false;
   std::string pace = "max";
-  std::filesystem::path out;  ///< empty: result/<stamp>-<pace>
-  std::string rsu;            ///< "" = the shipped one, "wait" = started by hand, otherwise a command
-  std::map<std::uint32_t, std::string> rsu_of{};  ///< the same for single RSUs, by index
+  std::filesystem::path out;                    ///< empty: result/<stamp>-<pace>
+  std::string rsu;                              ///< "" = the shipped one, "wait" = started by hand, otherwise a command
+  std::map<std::uint32_t, std::string> rsu_of;  ///< the same for single RSUs, by index
+  /// In one process, by RSU: makes its algorithm; without one it runs that of the scenario.
+  std::map<std::uint32_t, MakeAlgorithm> make_rsu;
   bool start_paused = false;
   bool watchdog = true;
   std::string stall_limit_s;          ///< empty: the clock's default

@@ -7,6 +7,7 @@
 #include "common/process/options.hpp"
 #include "common/process/stepping.hpp"
 #include "common/scenario/scenario_steps.hpp"
+#include "services/rsu/process/rsu_setup.hpp"
 #include "services/rsu/rsu_config.hpp"
 #include "services/rsu/rsu_node.hpp"
 
@@ -96,13 +97,17 @@ int joined_run(int argc, char** argv, const MakeScenarioAlgorithm& make) {
 
 int run_with(int argc, char** argv, const MakeAlgorithm& make) {
   return joined_run(argc, argv, [&](const RsuConfig& config) -> Expected<std::unique_ptr<RsuAlgorithm>> {
-    return make({.index = config.rsu,
-                 .map = {.speed_limit_mps = config.speed_limit_mps, .approach_length_m = config.road.approach_m},
-                 .acceleration_max_mps2 = config.acceleration_max_mps2});
+    return make(setup_of(config));
   });
 }
 
 }  // namespace
+
+RsuSetup setup_of(const RsuConfig& config) {
+  return {.index = config.rsu,
+          .map = {.speed_limit_mps = config.speed_limit_mps, .approach_length_m = config.road.approach_m},
+          .acceleration_max_mps2 = config.acceleration_max_mps2};
+}
 
 int run_rsu(int argc, char** argv, const MakeAlgorithm& make) {
   return process::guarded("rsu", [&] { return run_with(argc, argv, make); });

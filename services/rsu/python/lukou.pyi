@@ -6,7 +6,7 @@ Distances are those of a car's front to its stop line. A view is valid during on
 
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
-from typing import Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -309,3 +309,33 @@ def request_of(
 
 def run_rsu(make: Callable[[RsuSetup], RsuAlgorithm]) -> int:
     """Takes part in the run that `lukou run --rsu` started this program for; returns the exit code."""
+
+class RunResult:
+    """What became of a run in this process."""
+
+    @property
+    def folder(self) -> str: ...
+    @property
+    def ended(self) -> str:
+        """"done", or what ended it."""
+    @property
+    def exit_code(self) -> int:
+        """As that of `lukou run`."""
+    @property
+    def summary(self) -> dict[str, Any]:
+        """summary.json."""
+
+def run(
+    scenario: str,
+    algorithm: Union[None, Callable[[RsuSetup], RsuAlgorithm], Mapping[int, Callable[[RsuSetup], RsuAlgorithm]]] = None,
+    *,
+    set: Sequence[str] = ...,
+    seed: Optional[int] = None,
+    duration: Optional[float] = None,
+    out: str = "",
+) -> RunResult:
+    """Runs a scenario in this process, with this algorithm as every RSU, or a dict of them by RSU.
+
+    The result files are those of `lukou run SCENARIO --set ... --rsu PROGRAM`. A wrong scenario raises ValueError; what
+    an algorithm raises leaves as it is.
+    """

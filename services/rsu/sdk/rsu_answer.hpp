@@ -63,9 +63,9 @@ class RsuAnswer {
   /// A word for one car: one of the three kinds of advice, or none of them = release.
   struct Item {
     TemporaryId car{};
-    std::optional<Advice> advice{};
-    std::optional<AccelerationProfile> profile{};
-    std::optional<SpeedAdvice> speed{};
+    std::optional<Advice> advice;
+    std::optional<AccelerationProfile> profile;
+    std::optional<SpeedAdvice> speed;
 
     [[nodiscard]] bool is_release() const { return !advice && !profile && !speed; }
   };

@@ -74,8 +74,8 @@ struct Advice {
   std::uint32_t rsu = 0;       ///< index in the scenario's list
   std::uint32_t sequence = 0;  ///< of the frame, per RSU
   AdviceKind kind = AdviceKind::kAcceleration;
-  double speed_mps = kNoSpeed;        ///< of the two kinds that ask for one; then `acceleration_mps2` is no number
-  std::vector<LaterCommand> later{};  ///< of a profile, ascending; the first command is `acceleration_mps2`
+  double speed_mps = kNoSpeed;      ///< of the two kinds that ask for one; then `acceleration_mps2` is no number
+  std::vector<LaterCommand> later;  ///< of a profile, ascending; the first command is `acceleration_mps2`
 };
 
 inline constexpr std::uint32_t kNoVehicle = 4294967295U;
@@ -199,7 +199,7 @@ class OnBoardUnit {
     bool bent = false;  ///< by the driver: late, or not as commanded
     AdviceKind kind = AdviceKind::kAcceleration;
     double speed_mps = kNoSpeed;
-    std::vector<LaterCommand> later{};
+    std::vector<LaterCommand> later;
   };
   /// The newest speed for the lane.
   struct LaneWord {

@@ -14,7 +14,13 @@ if (!existsSync(target) || statSync(target).mtimeMs < statSync(source).mtimeMs) 
   const plugin = join(web, 'node_modules', '.bin', 'protoc-gen-es');
   execFileSync(
     'protoc',
-    [`--plugin=protoc-gen-es=${plugin}`, `--es_out=${dirname(target)}`, '--es_opt=target=ts', `-I${idl}`, 'console.proto'],
+    [
+      `--plugin=protoc-gen-es=${plugin}`,
+      `--es_out=${dirname(target)}`,
+      '--es_opt=target=ts',
+      `-I${idl}`,
+      'console.proto',
+    ],
     { stdio: 'inherit' },
   );
 }

@@ -28,5 +28,7 @@ export function paceText(pace: number): string {
 }
 
 export function csvText(rows: readonly (readonly string[])[]): string {
-  return rows.map((row) => row.map((cell) => (/[",\n]/.test(cell) ? `"${cell.replace(/"/g, '""')}"` : cell)).join(',')).join('\n');
+  return rows
+    .map((row) => row.map((cell) => (/[",\n]/.test(cell) ? `"${cell.replace(/"/g, '""')}"` : cell)).join(','))
+    .join('\n');
 }

@@ -41,8 +41,7 @@ function conflictFindings(plan: Plan, conflicts: Uint8Array): Finding[] {
   forPairs(plan, conflicts, (i, j, kind) => {
     let from = -1;
     for (const at of times) {
-      const both =
-        at < plan.cycle && aspectAt(plan.lanes[i], at) !== RED && aspectAt(plan.lanes[j], at) !== RED;
+      const both = at < plan.cycle && aspectAt(plan.lanes[i], at) !== RED && aspectAt(plan.lanes[j], at) !== RED;
       if (both && from < 0) from = at;
       if (!both && from >= 0) {
         findings.push({ kind: kind === HARD ? 'hard' : 'permitted', a: LANES[i], b: LANES[j], from, to: at });
@@ -89,11 +88,15 @@ function gapAfter(plan: Plan, i: number, j: number): number {
 }
 
 function ends(plan: Plan, lane: number): number[] {
-  return turning(plan, lane).filter(({ before, after }) => before !== RED && after === RED).map(({ at }) => at);
+  return turning(plan, lane)
+    .filter(({ before, after }) => before !== RED && after === RED)
+    .map(({ at }) => at);
 }
 
 function begins(plan: Plan, lane: number): number[] {
-  return turning(plan, lane).filter(({ before, after }) => before === RED && after !== RED).map(({ at }) => at);
+  return turning(plan, lane)
+    .filter(({ before, after }) => before === RED && after !== RED)
+    .map(({ at }) => at);
 }
 
 function turning(plan: Plan, lane: number): { at: number; before: number; after: number }[] {

@@ -18,9 +18,14 @@ export class Draft {
   runs(plan: Plan): void {
     if (this.running !== null && equal(this.running, plan)) return;
     this.running = plan;
-    if (this.sent !== null && equal(this.sent, plan)) this.sent = null;
+    this.sent = null; // it runs, or another change has taken its place
     if (this.edited !== null && equal(this.edited, plan)) this.edited = null;
     this.keepLine();
+  }
+
+  /** Another run has begun: what was sent went to the one before. The draft stays. */
+  anotherRun(): void {
+    this.sent = null;
   }
 
   /** Puts `plan` in the place of the draft; undo brings the one before back. */

@@ -1,14 +1,6 @@
 // All that the page knows: what the server said, newest last, and what the user looks at. Nothing of the simulation stands here
 // that did not come over the wire.
-import type {
-  Event,
-  Hands,
-  Hello,
-  Reply,
-  RunStatus,
-  Statistics,
-  ToPage,
-} from '../../generated/console_pb';
+import type { Event, Hands, Hello, Reply, RunStatus, Statistics, ToPage } from '../../generated/console_pb';
 import { Path } from '../view/path';
 import { Playback } from '../view/playback';
 import { Connection, type LinkState } from '../wire/connection';
@@ -45,6 +37,7 @@ export class Console {
   refusal = $state(''); // of the last request that was refused
   newest = $state.raw<Scene | null>(null); // follows the newest picture a few times a second
   samplesSeen = $state(0); // counts changes of `samples`
+  ghost = $state.raw<readonly Sample[]>([]); // what the charts compare with; empty: nothing
   scrubbed = $state<number | null>(null); // step that the user looks back at; null: live
 
   paths: readonly Path[] = $derived((this.hello?.lanes ?? []).map((lane) => new Path(lane)));
@@ -93,11 +86,16 @@ export class Console {
     this.connection.releaseControl();
   }
 
+  /** Keeps the figures so far as the charts' ghost, or drops the one that is kept. Another run leaves it alone. */
+  toggleGhost(): void {
+    this.ghost = this.ghost.length > 0 ? [] : [...this.samples.all()];
+  }
+
   /** Looks `by` pictures back or forth from the one that is shown; beyond the newest it is live again. */
   lookBy(by: number): void {
     const from = this.scrubbed ?? this.scenes.last?.step ?? -1;
     const index = Math.max(0, this.scenes.indexAt(from) + by);
-    this.scrubbed = index >= this.scenes.length - 1 ? null : this.scenes.at(index)?.step ?? null;
+    this.scrubbed = index >= this.scenes.length - 1 ? null : (this.scenes.at(index)?.step ?? null);
   }
 
   /** What has come is on the screen: the next pictures may come. */

@@ -60,7 +60,8 @@ export function directed(fields: Fields, text: string, step: number, shown: numb
 export function arrivedAt(fields: Fields, shown: number): Fields {
   let result = fields;
   for (const [path, { pending }] of fields) {
-    if (pending?.step != null && pending.step <= shown) result = changed(result, path, { value: pending.value, pending: null });
+    if (pending?.step != null && pending.step <= shown)
+      result = changed(result, path, { value: pending.value, pending: null });
   }
   return result;
 }
@@ -68,4 +69,13 @@ export function arrivedAt(fields: Fields, shown: number): Fields {
 export function directiveIn(text: string): { path: string; value: string } | null {
   const at = text.indexOf('=');
   return at <= 0 ? null : { path: text.slice(0, at).trim(), value: text.slice(at + 1).trim() };
+}
+
+/** Beyond this a range is no limit: it reaches over every road. */
+const NO_LIMIT_M = 10_000;
+
+/** How far the RSUs are heard [m]; null if no limit is set. */
+export function rangeOf(fields: Fields): number | null {
+  const rangeM = Number(fields.get('radio.downlink.range_m')?.value ?? '');
+  return rangeM > 0 && rangeM < NO_LIMIT_M ? rangeM : null;
 }

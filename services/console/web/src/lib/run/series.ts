@@ -49,6 +49,33 @@ export function columnsOf(chart: Chart, samples: readonly Sample[], stepS: numbe
   return [times, ...chart.lines.map((line) => samples.map(({ statistics }) => numberOrGap(line.of(statistics))))];
 }
 
+/** All charts' values over time, a row per sample. */
+export function seriesRows(samples: readonly Sample[], stepS: number): string[][] {
+  const lines = CHARTS.flatMap((chart) => chart.lines.map((line) => ({ chart, line })));
+  const names = lines.map(({ chart, line }) => `${chart.name}.${line.label.replace(/^\w+\./, '')}`);
+  const text = (value: number | undefined) => (numberOrGap(value) === null ? '' : String(value));
+  return [
+    ['time_s', ...names],
+    ...samples.map(({ step, statistics }) => [
+      (step * stepS).toFixed(1),
+      ...lines.map(({ line }) => text(line.of(statistics))),
+    ]),
+  ];
+}
+
+/** Charts that can be compared with a ghost: those whose first line is all cars. */
+export const compares = (chart: Chart) => chart.lines[0].label === 'tile.all';
+
+/** The ghost's line of all cars at the times of `samples`: at each its newest value up to then. */
+export function ghostColumn(chart: Chart, ghost: readonly Sample[], samples: readonly Sample[]): Column {
+  let at = -1;
+  return samples.map(({ step }) => {
+    while (at + 1 < ghost.length && ghost[at + 1].step <= step) ++at;
+    const ended = at === ghost.length - 1 && ghost[at]?.step < step;
+    return at < 0 || ended ? null : numberOrGap(chart.lines[0].of(ghost[at].statistics));
+  });
+}
+
 function numberOrGap(value: number | undefined): number | null {
   return value === undefined || !Number.isFinite(value) ? null : value;
 }

@@ -131,12 +131,7 @@ function ring(context: CanvasRenderingContext2D, scale: number, look: CarLook, c
   context.strokeStyle = colour;
   context.lineWidth = 2 / scale;
   const gap = 4 / scale;
-  context.strokeRect(
-    -look.lengthM - gap,
-    -look.widthM / 2 - gap,
-    look.lengthM + 2 * gap,
-    look.widthM + 2 * gap,
-  );
+  context.strokeRect(-look.lengthM - gap, -look.widthM / 2 - gap, look.lengthM + 2 * gap, look.widthM + 2 * gap);
 }
 
 /** The car at a place of the screen, or null; `slackPx` around it counts too. */

@@ -46,7 +46,7 @@ export const PALETTES: Record<Theme, Palette> = {
     red: '#f0453a',
     yellow: '#f5b921',
     green: '#35c46f',
-    unknown: '#8a939c',
+    unknown: '#68727c',
   },
   dark: {
     ground: '#12171c',
@@ -73,7 +73,7 @@ export const PALETTES: Record<Theme, Palette> = {
 };
 
 /** Seven kinds that are told apart by hue and lightness (after Okabe and Ito). */
-export const REGIME_COLOURS = ['#8f9aa5', '#e69f00', '#d55e00', '#0072b2', '#cc79a7', '#b3202a', '#009e73'] as const;
+export const REGIME_COLOURS = ['#9a86d6', '#e69f00', '#d55e00', '#0072b2', '#f0e442', '#b3202a', '#009e73'] as const;
 
 /** A scale of five colours from dark to light (the bends of "viridis"). */
 const SCALE = [

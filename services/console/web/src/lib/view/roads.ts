@@ -54,7 +54,12 @@ function drawAsphalt(context: Context, camera: Camera, paths: readonly Path[], l
   ];
   const at = (p: Place): [number, number] => [camera.toScreenX(p.xM), camera.toScreenY(p.yM)];
   context.beginPath();
-  for (const [i, [sx, sy]] of [[1, 1], [-1, 1], [-1, -1], [1, -1]].entries()) {
+  for (const [i, [sx, sy]] of [
+    [1, 1],
+    [-1, 1],
+    [-1, -1],
+    [1, -1],
+  ].entries()) {
     const [a, b, c] = i % 2 === 0 ? corner(sx, sy) : corner(sx, sy).reverse();
     if (i === 0) context.moveTo(...at(a));
     else context.lineTo(...at(a));
@@ -161,21 +166,40 @@ function drawArrow(context: Context, camera: Camera, path: Path, palette: Palett
   const turn = turnOf(path);
   const base = path.stopLineM - 14;
   const shape = (points: [number, number][]) => {
-    trace(context, camera, points.map(([along, left]) => beside(path, base + along, left)));
+    trace(
+      context,
+      camera,
+      points.map(([along, left]) => beside(path, base + along, left)),
+    );
   };
   context.strokeStyle = palette.marking;
   context.fillStyle = palette.marking;
   context.lineJoin = 'miter';
   context.lineWidth = 0.24 * camera.scale;
   if (turn === 0) {
-    shape([[0, 0], [4.2, 0]]);
+    shape([
+      [0, 0],
+      [4.2, 0],
+    ]);
     context.stroke();
-    shape([[4, -0.55], [6, 0], [4, 0.55]]);
+    shape([
+      [4, -0.55],
+      [6, 0],
+      [4, 0.55],
+    ]);
   } else {
     const side = turn > 0 ? 1 : -1;
-    shape([[0, -0.45 * side], [3.6, -0.45 * side], [4.6, 0.25 * side]]);
+    shape([
+      [0, -0.45 * side],
+      [3.6, -0.45 * side],
+      [4.6, 0.25 * side],
+    ]);
     context.stroke();
-    shape([[5.25, -0.35 * side], [5.3, 1.15 * side], [3.75, 0.75 * side]]);
+    shape([
+      [5.25, -0.35 * side],
+      [5.3, 1.15 * side],
+      [3.75, 0.75 * side],
+    ]);
   }
   context.fill();
 }

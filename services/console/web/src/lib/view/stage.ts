@@ -1,5 +1,6 @@
 // The two canvases of the picture: the roads, drawn when the camera or the theme changes, and what moves, drawn when it moved.
 import type { Console } from '../run/console.svelte';
+import { rangeOf } from '../run/fields';
 import { drawCars } from './cars';
 import { drawHeads } from './heads';
 import { momentBetween, type Moment } from './interpolation';
@@ -54,7 +55,7 @@ export class Stage {
       this.roads.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
       drawRoads(this.roads, view.camera, run.paths, { laneWidthM: run.hello?.laneWidthM ?? 3.5, palette });
     }
-    const shownStep = this.moment === null ? -1 : run.scrubbed ?? run.playback.stepAt(nowMs);
+    const shownStep = this.moment === null ? -1 : (run.scrubbed ?? run.playback.stepAt(nowMs));
     const key = [still, shownStep, this.moment?.scene.step, view.colouring, view.radio, view.selected].join();
     if (key !== this.movingKey) {
       this.movingKey = key;
@@ -113,7 +114,7 @@ export class Stage {
   /** The RSUs' antennas and how far they are heard, where a limit is set. */
   private drawAntennas(palette: Palette): void {
     const { moving, run, view } = this;
-    const rangeM = Number(run.fields.get('radio.downlink.range_m')?.value ?? Number.NaN);
+    const rangeM = rangeOf(run.fields);
     moving.strokeStyle = palette.advice;
     moving.fillStyle = palette.advice;
     for (const antenna of run.hello?.antennas ?? []) {
@@ -132,7 +133,7 @@ export class Stage {
         moving.arc(x, y, radius, -2.4, -0.75);
         moving.stroke();
       }
-      if (!(rangeM < 10_000)) continue;
+      if (rangeM === null) continue;
       moving.setLineDash([8, 6]);
       moving.beginPath();
       moving.arc(x, y, rangeM * view.camera.scale, 0, 2 * Math.PI);

@@ -1,5 +1,5 @@
 // What the user looks at, and how.
-import type { Scene } from '../wire/scene';
+import { CROSSED, type Scene } from '../wire/scene';
 import { Camera } from './camera';
 import { COLOURINGS, type Colouring } from './colouring';
 
@@ -31,10 +31,12 @@ export class ViewState {
     if (vehicle === null) this.following = false;
   }
 
-  /** The car `by` places after the chosen one. */
+  /** The car `by` places after the chosen one, among those that have not crossed their stop line. */
   selectNext(by: number): void {
-    const vehicles = this.shown?.vehicle;
-    if (vehicles === undefined || vehicles.length === 0) return;
+    const scene = this.shown;
+    if (scene === null) return;
+    const vehicles = [...scene.vehicle].filter((_, i) => scene.state[i] !== CROSSED);
+    if (vehicles.length === 0) return;
     const at = this.selected === null ? -1 : vehicles.indexOf(this.selected);
     const next = at < 0 && by < 0 ? vehicles.length - 1 : (at + by + vehicles.length) % vehicles.length;
     this.select(vehicles[next]);

@@ -1,12 +1,6 @@
 // The WebSocket to lukou-console: decodes what comes, numbers what goes, and comes back by itself when it is lost.
 import { create, fromBinary, toBinary } from '@bufbuild/protobuf';
-import {
-  FromPageSchema,
-  ToPageSchema,
-  type FromPage,
-  type Reply,
-  type ToPage,
-} from '../../generated/console_pb';
+import { FromPageSchema, ToPageSchema, type FromPage, type Reply, type ToPage } from '../../generated/console_pb';
 
 export type LinkState = 'connecting' | 'open' | 'lost' | 'refused';
 

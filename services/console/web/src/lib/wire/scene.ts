@@ -10,6 +10,8 @@ export const GREEN = 3;
 
 /** No word was missed: the value of `missed` then. */
 export const NOTHING_MISSED = 255;
+/** State of a car that has crossed its stop line. */
+export const CROSSED = 3;
 /** Guidance states that the page tells apart in its drawing. */
 export const ADVICE_IN_FORCE = 2;
 
@@ -58,7 +60,7 @@ export function sceneOf(picture: Picture, before: Scene | null): Scene {
     nextAspect: picture.nextAspect.slice(),
     waiting: picture.waiting,
     program: picture.program ?? before?.program ?? null,
-    programFrom: picture.program ? Number(picture.programFrom) : before?.programFrom ?? 0,
+    programFrom: picture.program ? Number(picture.programFrom) : (before?.programFrom ?? 0),
   };
 }
 

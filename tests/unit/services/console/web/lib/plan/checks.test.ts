@@ -11,7 +11,10 @@ const EL = 6;
 /** WC crosses SC, and EL turns left against it. */
 function conflicts(): Uint8Array {
   const matrix = new Uint8Array(144);
-  for (const [a, b, kind] of [[WC, SC, HARD], [WC, EL, PERMITTED]]) {
+  for (const [a, b, kind] of [
+    [WC, SC, HARD],
+    [WC, EL, PERMITTED],
+  ]) {
     matrix[a * 12 + b] = kind;
     matrix[b * 12 + a] = kind;
   }
@@ -20,8 +23,17 @@ function conflicts(): Uint8Array {
 
 /** West and east green and yellow in the first half, the others in the second. */
 function plan(): Plan {
-  const first = [{ aspect: GREEN, steps: 420 }, { aspect: YELLOW, steps: 30 }, { aspect: RED, steps: 450 }];
-  const second = [{ aspect: RED, steps: 460 }, { aspect: GREEN, steps: 400 }, { aspect: YELLOW, steps: 30 }, { aspect: RED, steps: 10 }];
+  const first = [
+    { aspect: GREEN, steps: 420 },
+    { aspect: YELLOW, steps: 30 },
+    { aspect: RED, steps: 450 },
+  ];
+  const second = [
+    { aspect: RED, steps: 460 },
+    { aspect: GREEN, steps: 400 },
+    { aspect: YELLOW, steps: 30 },
+    { aspect: RED, steps: 10 },
+  ];
   const isFirst = (i: number) => i < 3 || (i >= 6 && i < 9);
   return { cycle: 900, offset: 0, lanes: Array.from({ length: 12 }, (_, i) => (isFirst(i) ? first : second)) };
 }
@@ -51,11 +63,18 @@ describe('the check of a plan', () => {
     expect(kinds(setBehind(plan(), [0], 0, RED))).toContain('never_green');
     const short = setBehind(setBehind(plan(), [0], 40, YELLOW), [0], 70, RED);
     expect(findingsOf(short, conflicts())).toContainEqual({ kind: 'short_green', lane: 'WL', steps: 40 });
-    expect(findingsOf(setBehind(plan(), [0, 2], 420, RED), conflicts())).toContainEqual({ kind: 'no_yellow', lanes: 2 });
+    expect(findingsOf(setBehind(plan(), [0, 2], 420, RED), conflicts())).toContainEqual({
+      kind: 'no_yellow',
+      lanes: 2,
+    });
   });
 
   it('takes a green over the end of the cycle as one', () => {
-    const lane = [{ aspect: GREEN, steps: 20 }, { aspect: RED, steps: 800 }, { aspect: GREEN, steps: 80 }];
+    const lane = [
+      { aspect: GREEN, steps: 20 },
+      { aspect: RED, steps: 800 },
+      { aspect: GREEN, steps: 80 },
+    ];
     expect(greenSpells(lane)).toEqual([100]);
   });
 

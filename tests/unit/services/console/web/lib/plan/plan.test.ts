@@ -20,8 +20,14 @@ const GREEN = 3;
 
 /** 90 s: lanes 0 ... 5 green for 45 s, then lanes 6 ... 11. */
 function twoPhases(): Plan {
-  const first = [{ aspect: GREEN, steps: 450 }, { aspect: RED, steps: 450 }];
-  const second = [{ aspect: RED, steps: 450 }, { aspect: GREEN, steps: 450 }];
+  const first = [
+    { aspect: GREEN, steps: 450 },
+    { aspect: RED, steps: 450 },
+  ];
+  const second = [
+    { aspect: RED, steps: 450 },
+    { aspect: GREEN, steps: 450 },
+  ];
   return { cycle: 900, offset: 0, lanes: Array.from({ length: 12 }, (_, i) => (i < 6 ? first : second)) };
 }
 
@@ -29,19 +35,35 @@ const sum = (lane: Plan['lanes'][number]) => lane.reduce((steps, s) => steps + s
 
 describe('a signal plan', () => {
   it('joins neighbours of one aspect and drops empty stretches', () => {
-    const lane = [{ aspect: RED, steps: 10 }, { aspect: RED, steps: 5 }, { aspect: GREEN, steps: 0 }, { aspect: RED, steps: 1 }];
+    const lane = [
+      { aspect: RED, steps: 10 },
+      { aspect: RED, steps: 5 },
+      { aspect: GREEN, steps: 0 },
+      { aspect: RED, steps: 1 },
+    ];
     expect(joined(lane)).toEqual([{ aspect: RED, steps: 16 }]);
   });
 
   it('shows an aspect up to the step before its end', () => {
     const lane = twoPhases().lanes[0];
-    expect([aspectAt(lane, 0), aspectAt(lane, 449), aspectAt(lane, 450), aspectAt(lane, 899)]).toEqual([GREEN, GREEN, RED, RED]);
+    expect([aspectAt(lane, 0), aspectAt(lane, 449), aspectAt(lane, 450), aspectAt(lane, 899)]).toEqual([
+      GREEN,
+      GREEN,
+      RED,
+      RED,
+    ]);
   });
 
   it('is set behind the time line in the chosen lanes only', () => {
     const plan = setBehind(twoPhases(), [0, 6], 420, YELLOW);
-    expect(plan.lanes[0]).toEqual([{ aspect: GREEN, steps: 420 }, { aspect: YELLOW, steps: 480 }]);
-    expect(plan.lanes[6]).toEqual([{ aspect: RED, steps: 420 }, { aspect: YELLOW, steps: 480 }]);
+    expect(plan.lanes[0]).toEqual([
+      { aspect: GREEN, steps: 420 },
+      { aspect: YELLOW, steps: 480 },
+    ]);
+    expect(plan.lanes[6]).toEqual([
+      { aspect: RED, steps: 420 },
+      { aspect: YELLOW, steps: 480 },
+    ]);
     expect(plan.lanes[1]).toEqual(twoPhases().lanes[1]);
   });
 
@@ -72,7 +94,10 @@ describe('a signal plan', () => {
   });
 
   it('gives a longer cycle to the last stretch and cuts a shorter one off', () => {
-    expect(setCycle(twoPhases(), 1000).lanes[0]).toEqual([{ aspect: GREEN, steps: 450 }, { aspect: RED, steps: 550 }]);
+    expect(setCycle(twoPhases(), 1000).lanes[0]).toEqual([
+      { aspect: GREEN, steps: 450 },
+      { aspect: RED, steps: 550 },
+    ]);
     const shorter = setCycle(twoPhases(), 400);
     expect(shorter.lanes[0]).toEqual([{ aspect: GREEN, steps: 400 }]);
     expect(shorter.lanes.map(sum)).toEqual(Array(12).fill(400));

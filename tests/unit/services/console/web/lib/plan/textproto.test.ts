@@ -3,7 +3,11 @@ import { parseText } from '@page/lib/plan/text_format';
 import { planFile, planFromText, planValue, secondsText } from '@page/lib/plan/textproto';
 
 function plan(): Plan {
-  const lane = [{ aspect: 3, steps: 425 }, { aspect: 2, steps: 30 }, { aspect: 1, steps: 445 }];
+  const lane = [
+    { aspect: 3, steps: 425 },
+    { aspect: 2, steps: 30 },
+    { aspect: 1, steps: 445 },
+  ];
   return setBehind({ cycle: 900, offset: 15, lanes: Array(12).fill(lane) }, [3, 4], 0, 1);
 }
 
@@ -28,7 +32,10 @@ describe('a plan as text', () => {
           aspects { aspect: GREEN duration_s: 30 }; aspects: { aspect: RED duration_s: 30.0 } } } >`;
     const read = planFromText(text);
     expect(read.cycle).toBe(600);
-    expect(read.lanes[11]).toEqual([{ aspect: 3, steps: 300 }, { aspect: 1, steps: 300 }]);
+    expect(read.lanes[11]).toEqual([
+      { aspect: 3, steps: 300 },
+      { aspect: 1, steps: 300 },
+    ]);
   });
 
   it.each([

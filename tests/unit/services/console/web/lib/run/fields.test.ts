@@ -3,7 +3,16 @@ import { arrivedAt, asked, directed, directiveIn, fieldsOf, refusedWith } from '
 const PATH = 'traffic.west.flow_veh_per_h';
 const live = () =>
   fieldsOf([
-    { $typeName: 'lukou.console.LiveField', path: PATH, unit: 'veh/h', value: '1800', min: 0, max: 10800, source: '', words: [] },
+    {
+      $typeName: 'lukou.console.LiveField',
+      path: PATH,
+      unit: 'veh/h',
+      value: '1800',
+      min: 0,
+      max: 10800,
+      source: '',
+      words: [],
+    },
   ]);
 
 describe('a field that may change while the run goes on', () => {

@@ -39,6 +39,8 @@ describe('the store of samples', () => {
 
   it('finds the last sample at or before a step', () => {
     const ring = filled(8, 9); // 0 2 4 5 6 7 8
-    expect([ring.indexAt(-1), ring.indexAt(0), ring.indexAt(3), ring.indexAt(4), ring.indexAt(99)]).toEqual([-1, 0, 1, 2, 6]);
+    expect([ring.indexAt(-1), ring.indexAt(0), ring.indexAt(3), ring.indexAt(4), ring.indexAt(99)]).toEqual([
+      -1, 0, 1, 2, 6,
+    ]);
   });
 });

@@ -17,7 +17,18 @@ describe('the moment between two pictures', () => {
   });
 
   it('finds cars by their number, not by their place in the list', () => {
-    const moment = momentBetween(scene(10, [[7, 100, 10], [8, 50, 0]]), scene(11, [[8, 50, 0], [7, 101, 10]]), 10.5, 0.1);
+    const moment = momentBetween(
+      scene(10, [
+        [7, 100, 10],
+        [8, 50, 0],
+      ]),
+      scene(11, [
+        [8, 50, 0],
+        [7, 101, 10],
+      ]),
+      10.5,
+      0.1,
+    );
     expect([...moment.positionM]).toEqual([100.5, 50]);
   });
 

@@ -5,7 +5,11 @@ const corner = () =>
   new Path({
     $typeName: 'lukou.console.LanePath',
     name: 'WL',
-    points: [[0, 0], [10, 0], [10, 10]].map(([xM, yM]) => ({ $typeName: 'lukou.console.Point' as const, xM, yM })),
+    points: [
+      [0, 0],
+      [10, 0],
+      [10, 10],
+    ].map(([xM, yM]) => ({ $typeName: 'lukou.console.Point' as const, xM, yM })),
     distanceM: [0, 10, 20],
     stopLineM: 8,
   });
@@ -27,6 +31,10 @@ describe('a path', () => {
   });
 
   it('gives a stretch with the points inside it', () => {
-    expect(corner().stretch(8, 12)).toEqual([{ xM: 8, yM: 0 }, { xM: 10, yM: 0 }, { xM: 10, yM: 2 }]);
+    expect(corner().stretch(8, 12)).toEqual([
+      { xM: 8, yM: 0 },
+      { xM: 10, yM: 0 },
+      { xM: 10, yM: 2 },
+    ]);
   });
 });

@@ -11,6 +11,7 @@
 #include "services/rsu/process/run_rsu.hpp"
 #include "services/rsu/python/helpers.hpp"
 #include "services/rsu/python/lane_script.hpp"
+#include "services/rsu/python/sdk_binding.hpp"
 #include "services/rsu/sdk/planning.hpp"
 #include "services/rsu/sdk/seen_cars.hpp"
 
@@ -193,7 +194,7 @@ int run(const py::function& make, std::vector<std::string> arguments) {
   const py::gil_scoped_release free;
   return run_rsu_throwing(static_cast<int>(arguments.size()), argv.data(), [&](const RsuSetup& setup) {
     const py::gil_scoped_acquire locked;
-    return std::unique_ptr<RsuAlgorithm>(std::make_unique<Kept>(make(setup)));
+    return kept(make(setup));
   });
 }
 
@@ -219,9 +220,9 @@ std::optional<SignalRequest> request_of(RsuAlgorithm& algorithm, const RsuSetup&
 
 }  // namespace
 
-PYBIND11_MODULE(lukou, m) {
-  m.doc() = "A roadside unit (RSU) for Lukou in Python: inherit from RsuAlgorithm, give the class to run_rsu().";
+std::unique_ptr<RsuAlgorithm> kept(py::object algorithm) { return std::make_unique<Kept>(std::move(algorithm)); }
 
+void bind_sdk(py::module_& m) {
   py::enum_<Binding>(m, "Binding").value("GUARD", Binding::kGuard).value("FOLLOWING", Binding::kFollowing);
   py::enum_<Aspect>(m, "Aspect")
       .value("RED", Aspect::kRed)
