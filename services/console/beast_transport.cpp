@@ -110,7 +110,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     send_limit_.cancel();
     beast::error_code ignored;
     auto& lowest = socket_ ? beast::get_lowest_layer(*socket_) : stream_;
-    lowest.socket().shutdown(tcp::socket::shutdown_both, ignored);
+    static_cast<void>(lowest.socket().shutdown(tcp::socket::shutdown_both, ignored));
     lowest.close();
     shared_.connections.erase(shared_from_this());
   }
@@ -218,7 +218,7 @@ class BeastTransport final : public Transport {
     const auto connections = shared_.connections;
     for (const auto& connection : connections) connection->end();
     beast::error_code ignored;
-    acceptor_.close(ignored);
+    static_cast<void>(acceptor_.close(ignored));
     again_.cancel();
     context_.poll();
   }
@@ -264,11 +264,11 @@ class BeastTransport final : public Transport {
   beast::error_code bind(const tcp::endpoint& endpoint) {
     beast::error_code error;
     beast::error_code ignored;
-    acceptor_.close(ignored);
-    acceptor_.open(endpoint.protocol(), error);
-    if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
-    if (!error) acceptor_.bind(endpoint, error);
-    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    static_cast<void>(acceptor_.close(ignored));
+    static_cast<void>(acceptor_.open(endpoint.protocol(), error));
+    if (!error) static_cast<void>(acceptor_.set_option(asio::socket_base::reuse_address(true), error));
+    if (!error) static_cast<void>(acceptor_.bind(endpoint, error));
+    if (!error) static_cast<void>(acceptor_.listen(asio::socket_base::max_listen_connections, error));
     return error;
   }
 
@@ -284,7 +284,7 @@ class BeastTransport final : public Transport {
       }
       // Whoever is too many is closed at once.
       if (shared_.connections.size() < kConnectionsMax) {
-        socket.set_option(tcp::no_delay(true), error);
+        static_cast<void>(socket.set_option(tcp::no_delay(true), error));
         auto connection = std::make_shared<Connection>(std::move(socket), shared_);
         shared_.connections.insert(connection);
         connection->read_request();

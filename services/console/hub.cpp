@@ -56,6 +56,7 @@ void Hub::begin(RunStory story, const std::vector<Directive>& so_far) {
   told_.clear();
   rsus_heard_.clear();
   pace_ = {};
+  figures_.reset();
   phase_ = RunPhase::kForming;
   step_ = -1;
   status_.clear();
@@ -119,18 +120,24 @@ void Hub::show(const View& view, double now_s) {
   *picture.mutable_program() = message_of(program.running->plan, program.running->offset);
   picture.set_program_from(program.cycle_start);
   picture_with_program_ = bytes_of(message);
-  if (now_s - statistics_s_ < kStatisticsEvery_s) return;
+  figures_ = std::make_unique<Statistics>(statistics_of(view));
+  publish_figures(now_s);
+}
+
+void Hub::publish_figures(double now_s) {
+  if (!figures_ || now_s - statistics_s_ < kStatisticsEvery_s) return;
   statistics_s_ = now_s;
-  ToPage figures;
-  Statistics& statistics = *figures.mutable_statistics();
-  statistics = statistics_of(view);
-  statistics.set_pace_achieved(pace_.pace());
-  past_.add(statistics);
-  publish(Viewer::kStatistics, figures);
+  figures_->set_pace_achieved(pace_.pace());
+  past_.add(*figures_);
+  ToPage message;
+  message.mutable_statistics()->Swap(figures_.get());
+  figures_.reset();
+  publish(Viewer::kStatistics, message);
 }
 
 void Hub::tell(const RunState& state, double clock_silent_s, double now_s) {
   if (!story_) return;
+  publish_figures(now_s);  // of the last step before a pause, too
   if (state.phase != phase_) {
     phase_ = state.phase;
     add_event(state.recorded, "phase", std::string(name(phase_)));

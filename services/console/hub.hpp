@@ -73,6 +73,7 @@ class Hub final : public Visitors {
   void add_event(Step step, const std::string& kind, const std::string& text);
   void add_directive(const Directive& directive);
   void publish_hands();
+  void publish_figures(double now_s);
   void publish(Viewer::State state, const ToPage& message);
   [[nodiscard]] Bytes picture_for(Viewer& viewer);
 
@@ -91,6 +92,7 @@ class Hub final : public Visitors {
   std::optional<std::uint64_t> restart_;
   std::deque<std::string> told_;  ///< changes of viewers that are events already; their grants follow
   PaceMeter pace_;
+  std::unique_ptr<Statistics> figures_;  ///< of the newest step, until they are published
   std::vector<std::uint32_t> rsus_heard_;
   RunPhase phase_ = RunPhase::kForming;
   Step step_ = -1;

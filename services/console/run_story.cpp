@@ -30,8 +30,8 @@ void fill(LanePath& path, const RoadLengths& road, Lane lane) {
   path.set_stop_line_m(road.approach_m);
   add_point(path, road, lane, 0.0);
   const double curve_m = std::min(curve_length_m(lane), road.exit_m);
-  const double pieces = std::ceil(curve_m / kPointEvery_m);
-  for (double piece = 0.0; piece <= pieces; piece += 1.0) {
+  const int pieces = static_cast<int>(std::ceil(curve_m / kPointEvery_m));
+  for (int piece = 0; piece <= pieces; ++piece) {
     add_point(path, road, lane, road.approach_m + curve_m * piece / pieces);
   }
   if (curve_m < road.exit_m) add_point(path, road, lane, road.approach_m + road.exit_m);

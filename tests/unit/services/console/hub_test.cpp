@@ -143,6 +143,23 @@ TEST(Hub, SendsStatisticsFiveTimesASecond) {
   EXPECT_GE(sent, 30U);
 }
 
+TEST(Hub, SendsTheFiguresOfTheLastStepBeforeAPause) {
+  Rig rig;
+  rig.begin();
+  const ViewerId viewer = rig.hub.came();
+  rig.show(1, 1.0);
+  rig.show(2, 1.05);
+  auto figures = rig.all(viewer, ToPage::kStatistics);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].statistics().step(), 1);
+  rig.hub.tell({.phase = RunPhase::kPaused}, 0.0, 1.1);
+  EXPECT_TRUE(rig.all(viewer, ToPage::kStatistics).empty());
+  rig.hub.tell({.phase = RunPhase::kPaused}, 0.0, 1.25);
+  figures = rig.all(viewer, ToPage::kStatistics);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].statistics().step(), 2);
+}
+
 TEST(Hub, PassesRequestsOfTheHolderToTheClockOneByOne) {
   Rig rig;
   rig.begin();
