@@ -78,6 +78,7 @@ describe('flows and ratio', { timeout: 150_000 }, () => {
     await west.fill('99999');
     await west.press('Enter');
     await page.locator('.refusal').getByText('10800').first().waitFor();
+    assert.equal(await west.inputValue(), '1800'); // what is in force
   });
 
   test('a reload in the middle shows the values in force and the time before', async () => {
@@ -214,6 +215,16 @@ describe('the signal plan', { timeout: 150_000 }, () => {
     await panel.getByRole('button', { name: 'Apply' }).click();
     await panel.getByRole('alert').getByText('crossing streams').waitFor();
     await panel.getByRole('button', { name: 'Discard' }).click();
+    await panel.getByText('as it runs').waitFor();
+  });
+
+  test('a cycle out of range is bounded, and undone', async () => {
+    const cycle = panel.getByRole('spinbutton', { name: 'Cycle' });
+    await cycle.fill('-4');
+    await cycle.press('Enter');
+    assert.equal(await cycle.inputValue(), '1');
+    await panel.getByRole('button', { name: 'Undo' }).click();
+    assert.equal(await cycle.inputValue(), '90');
     await panel.getByText('as it runs').waitFor();
   });
 

@@ -75,6 +75,7 @@ export class Console {
     this.fields = asked(this.fields, path, value);
     const reply = await this.ask(`set ${path}=${value}`);
     if (reply === null || !reply.ok) this.fields = refusedWith(this.fields, path, reply?.text ?? '');
+    this.refusal = ''; // it stands beside the field
     return reply;
   }
 

@@ -9,8 +9,14 @@ export interface FieldState {
   readonly source: string;
   readonly words: readonly string[];
   readonly value: string; // in force
-  readonly pending: { value: string; step: number | null } | null; // asked, or accepted from `step` on
+  readonly coming: { value: string; step: number } | null; // accepted, in force from `step` on
+  readonly asked: string | null; // sent, not answered yet
   readonly refusal: string;
+}
+
+/** What the field will hold when everything under way has arrived. */
+export function wanted(field: FieldState): string {
+  return field.asked ?? field.coming?.value ?? field.value;
 }
 
 export type Fields = ReadonlyMap<string, FieldState>;
@@ -27,7 +33,8 @@ export function fieldsOf(live: readonly LiveField[]): Map<string, FieldState> {
         source: f.source,
         words: f.words,
         value: f.value,
-        pending: null,
+        coming: null,
+        asked: null,
         refusal: '',
       },
     ]),
@@ -40,11 +47,11 @@ function changed(fields: Fields, path: string, change: Partial<FieldState>): Fie
 }
 
 export function asked(fields: Fields, path: string, value: string): Fields {
-  return changed(fields, path, { pending: { value, step: null }, refusal: '' });
+  return changed(fields, path, { asked: value, refusal: '' });
 }
 
 export function refusedWith(fields: Fields, path: string, text: string): Fields {
-  return changed(fields, path, { pending: null, refusal: text });
+  return changed(fields, path, { asked: null, refusal: text });
 }
 
 /** A directive "path=value" that acts from `step` on; `shown`: the newest step that the page has. */
@@ -52,16 +59,15 @@ export function directed(fields: Fields, text: string, step: number, shown: numb
   const directive = directiveIn(text);
   if (directive === null) return fields;
   const { path, value } = directive;
-  if (step <= shown) return changed(fields, path, { value, pending: null, refusal: '' });
-  return changed(fields, path, { pending: { value, step }, refusal: '' });
+  if (step <= shown) return changed(fields, path, { value, coming: null, asked: null, refusal: '' });
+  return changed(fields, path, { coming: { value, step }, asked: null, refusal: '' });
 }
 
 /** Values whose step has come are in force. */
 export function arrivedAt(fields: Fields, shown: number): Fields {
   let result = fields;
-  for (const [path, { pending }] of fields) {
-    if (pending?.step != null && pending.step <= shown)
-      result = changed(result, path, { value: pending.value, pending: null });
+  for (const [path, { coming }] of fields) {
+    if (coming !== null && coming.step <= shown) result = changed(result, path, { value: coming.value, coming: null });
   }
   return result;
 }

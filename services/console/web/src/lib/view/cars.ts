@@ -21,6 +21,8 @@ export interface CarLook {
 /** Harder than this the brake lights are on [m/s2]; also while a car stands. */
 const BRAKE_LIGHTS_MPS2 = -0.4;
 const STANDS_MPS = 0.15;
+/** Narrower than this a car is a mark without details. */
+const LEAST_WIDTH_PX = 2.6;
 
 const front = { xM: 0, yM: 0 };
 const rear = { xM: 0, yM: 0 };
@@ -61,11 +63,13 @@ export function drawCars(
 function drawCar(context: CanvasRenderingContext2D, scale: number, scene: Scene, i: number, look: CarLook): void {
   const { lengthM, widthM, palette } = look;
   const half = widthM / 2;
-  // Far away a car must still be seen: at least two pixels wide.
-  const grown = Math.max(1, 2 / (widthM * scale));
-  if (grown > 1) {
+  // Far away a car must still be seen: a mark of a few pixels around its middle.
+  if (widthM * scale < LEAST_WIDTH_PX) {
+    const width = LEAST_WIDTH_PX / scale;
+    const length = Math.max(lengthM, (1.6 * LEAST_WIDTH_PX) / scale);
     context.fillStyle = carColour(scene, i, look.colouring, palette, look.speedLimitMps);
-    context.fillRect(-lengthM, -half * grown, lengthM, widthM * grown);
+    context.fillRect(-(lengthM + length) / 2, -width / 2, length, width);
+    if (look.radio && scene.equipped[i]) drawRadio(context, scale, scene, i, look);
     if (scene.vehicle[i] === look.selected) ring(context, scale, look, palette.selected);
     return;
   }
@@ -117,12 +121,13 @@ function drawRadio(context: CanvasRenderingContext2D, scale: number, scene: Scen
   context.strokeStyle = missed ? look.palette.lost : look.palette.advice;
   context.beginPath();
   if (missed) {
+    const arm = Math.max(1.3, 3 / scale);
     for (const side of [-1, 1]) {
-      context.moveTo(middle - 1.3, -1.3 * side);
-      context.lineTo(middle + 1.3, 1.3 * side);
+      context.moveTo(middle - arm, -arm * side);
+      context.lineTo(middle + arm, arm * side);
     }
   } else {
-    context.arc(middle, 0, look.lengthM * 0.62, 0, 2 * Math.PI);
+    context.arc(middle, 0, Math.max(look.lengthM * 0.62, 4 / scale), 0, 2 * Math.PI);
   }
   context.stroke();
 }

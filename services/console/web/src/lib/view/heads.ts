@@ -58,9 +58,9 @@ export function drawHeads(
     context.fillStyle = colour;
     lamp(context, aspect, x, y, radius);
     const change = scene.changeIn[lane] ?? -1;
-    if (change < 0 || radius < 6) continue;
+    if (change < 0 || radius < 5.2) continue;
     context.fillStyle = '#06090c';
-    context.font = `700 ${Math.round(radius * 1.05)}px system-ui, sans-serif`;
+    context.font = `700 ${Math.max(8, Math.round(radius * 1.05))}px system-ui, sans-serif`;
     context.fillText(String(Math.ceil(change * look.stepS)), x, y + 0.5);
   }
 }
