@@ -14,7 +14,7 @@ using namespace lukou;
 
 namespace {
 
-constexpr double kServe_s = 0.01;      ///< between two looks at the bus, with viewers
+constexpr double kServe_s = 0.005;     ///< between two looks at the bus, with viewers
 constexpr double kIdleServe_s = 0.05;  ///< without
 constexpr double kLeftAlone_s = 10.0;  ///< after the end of a run, until a console that nobody looks at ends
 constexpr double kGoodbye_s = 0.5;
