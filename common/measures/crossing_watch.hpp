@@ -17,7 +17,7 @@ struct CrossingCar {
   std::uint32_t vehicle = 0;
   Lane lane{};
   bool equipped = false;
-  bool guided = false;  ///< an advice was in force when it crossed its stop line
+  bool guided = false;  ///< an advice was in force shortly before
   double position_m = 0.0;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;  ///< of the step

@@ -106,7 +106,7 @@ struct Encounter {
       other;  ///< the car ahead, or that was there first; empty: concerns no other, as the next two
   std::optional<Lane> other_lane;
   std::optional<bool> other_equipped;
-  bool guided = false;  ///< an advice was in force for `vehicle` when it was worst; of crossings at its stop line
+  bool guided = false;  ///< an advice was in force for `vehicle` when it was worst; of crossings up to 10 s before
   Step began = 0;
   Step last = 0;            ///< that met the threshold
   Step worst = 0;           ///< in which `value` is the extreme

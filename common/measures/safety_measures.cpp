@@ -11,6 +11,8 @@ namespace {
 
 /// An encounter is over when its threshold has not been met for so long, so that noise does not split it; assumed.
 constexpr Step kOverAfter = 10;
+/// Advice ends before or at the stop line; what it did shows at the crossing. Assumed.
+constexpr Step kGuidedBefore = 100;
 /// Speeds for the jerk are taken this many steps apart: 0.5 s.
 constexpr Step kJerkGrid = 5;
 
@@ -124,6 +126,7 @@ void SafetyMeasures::add_jerks(const TrafficBatch& batch) {
   for (std::size_t i = 0; i < batch.vehicle.size(); ++i) {
     Car& seen = car(batch.vehicle[i]);
     const double speed_mps = batch.speed_mps[i];
+    if (in_force(batch.guidance[i])) seen.guided = step_;
     if (seen.grid_points == 2) {
       const double jerk_mps3 = (speed_mps - 2.0 * seen.speed_mps[0] + seen.speed_mps[1]) / (kGrid_s * kGrid_s);
       if (std::abs(jerk_mps3) > kJerk_mps3) note(batch, i, SafetyKind::kJerk, jerk_mps3);
@@ -172,14 +175,10 @@ void SafetyMeasures::add_crossings(const TrafficBatch& batch) {
     const auto lane = static_cast<Lane>(batch.lane[i]);
     if (position_m <= approach_m_ || position_m > crossings_.end_m(lane)) continue;
     Car& seen = car(batch.vehicle[i]);
-    if (!seen.crossed) {
-      seen.crossed = true;
-      seen.guided_at_line = !std::isnan(batch.commanded_mps2[i]);  // of the step in which it crossed
-    }
     crossings_.move({.vehicle = seen.vehicle,
                      .lane = lane,
                      .equipped = seen.equipped,
-                     .guided = seen.guided_at_line,
+                     .guided = seen.guided >= 0 && step_ - seen.guided <= kGuidedBefore,
                      .position_m = position_m,
                      .speed_mps = batch.speed_mps[i],
                      .acceleration_mps2 = batch.acceleration_mps2[i]},

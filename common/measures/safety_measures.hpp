@@ -59,10 +59,9 @@ class SafetyMeasures {
     std::uint32_t vehicle = 0;
     bool equipped = false;
     bool left = false;
-    bool crossed = false;
-    bool guided_at_line = false;
     bool listed = false;  ///< in open_
     std::uint8_t grid_points = 0;
+    Step guided = -1;                   ///< last point of the grid at which an advice was in force; -1: none
     std::size_t next_mark = 0;          ///< of the crossings
     std::array<double, 2> speed_mps{};  ///< at the last two points of the grid of the jerk, the newest first
     std::array<std::optional<Encounter>, kLastingKinds> lasting;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <algorithm>
 
 namespace lukou {
 namespace {
@@ -33,7 +33,6 @@ class Script {
     batch_.position_m.push_back(at.position_m);
     batch_.speed_mps.push_back(at.speed_mps);
     batch_.acceleration_mps2.push_back(at.acceleration_mps2);
-    batch_.commanded_mps2.push_back(at.guided ? 0.0 : std::numeric_limits<double>::quiet_NaN());
     batch_.guidance.push_back(
         static_cast<std::uint8_t>(at.guided ? GuidanceState::kInForce : GuidanceState::kNotEquipped));
   }
@@ -202,7 +201,7 @@ TEST(SafetyMeasures, BeginAnewBehindAnotherCar) {
   EXPECT_EQ(rows[1].ended, 2);  // when it left
 }
 
-TEST(SafetyMeasures, RememberForACrossingWhetherGuidanceWasInForceAtTheLine) {
+TEST(SafetyMeasures, RememberForACrossingWhetherGuidanceWasInForceShortlyBefore) {
   Script script;
   script.enter(0);
   script.enter(1, true);
