@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -27,6 +29,8 @@ struct FinishedCar {
   std::uint32_t stops = 0;           ///< before the stop line
   std::uint32_t standing_steps = 0;  ///< before the stop line
   double left_s = 0.0;
+  double fuel_ml = 0.0;           ///< entrance to the end of the exit, as the next
+  double fuel_standing_ml = 0.0;  ///< of it slower than the stop speed
 };
 
 /// A row of stops.csv: a stop that is over, or that the end of the run has cut short.
@@ -76,5 +80,39 @@ struct MissedDeadline {
 };
 /// Stands in the place of a fate.
 inline constexpr std::string_view kDeadlineMissed = "deadline_missed";
+
+/// What is dangerous about an encounter. docs/results.md defines each.
+enum class SafetyKind : std::uint8_t {
+  kTtc = 0,
+  kMttc = 1,
+  kDrac = 2,
+  kHardBraking = 3,
+  kJerk = 4,
+  kPet = 5,
+  kPetOpposedLeft = 6,
+};
+inline constexpr std::size_t kSafetyKinds = 7;
+inline constexpr std::array<std::string_view, kSafetyKinds> kSafetyKindNames = {
+    "ttc", "mttc", "drac", "hard_braking", "jerk", "pet", "pet_opposed_left"};
+
+/// A row of safety.csv: an encounter that is over, or that the end of the run has cut short.
+struct Encounter {
+  Step ended = 0;  ///< the step in which it was known to be over; the last one of the run
+  SafetyKind kind{};
+  std::uint32_t vehicle = 0;  ///< that follows, comes second, brakes or jerks
+  Lane lane{};
+  bool equipped = false;
+  std::optional<std::uint32_t>
+      other;  ///< the car ahead, or that was there first; empty: concerns no other, as the next two
+  std::optional<Lane> other_lane;
+  std::optional<bool> other_equipped;
+  bool guided = false;  ///< an advice was in force for `vehicle` when it was worst; of crossings up to 10 s before
+  Step began = 0;
+  Step last = 0;            ///< that met the threshold
+  Step worst = 0;           ///< in which `value` is the extreme
+  double value = 0.0;       ///< s, m/s2 or m/s3
+  double distance_m = 0.0;  ///< of the front to the own stop line when it was worst; negative beyond it
+  double speed_mps = 0.0;   ///< then
+};
 
 }  // namespace lukou

@@ -36,6 +36,19 @@ bool reached(AdviceFate fate) {
   }
 }
 
+/// What a car burns in a step. Slower than `stop_speed_mps` is standing.
+inline void add_step(FuelTotals& fuel, double speed_mps, double acceleration_mps2, double stop_speed_mps) {
+  const FuelRate rate = kamal_fuel(speed_mps, acceleration_mps2);
+  const double burnt_ml = rate.total_ml_per_s() * kStep_s;
+  fuel.fuel_ml += burnt_ml;
+  fuel.check_ml += cpfm_fuel_ml_per_s(speed_mps, acceleration_mps2) * kStep_s;
+  if (speed_mps < stop_speed_mps) {
+    fuel.standing_ml += burnt_ml;
+  } else {
+    fuel.accelerating_ml += rate.accelerating_ml_per_s * kStep_s;
+  }
+}
+
 std::uint64_t sum(const std::vector<std::uint32_t>& column) {
   std::uint64_t total = 0;
   for (const std::uint32_t value : column) total += value;
@@ -115,6 +128,7 @@ void RunMeasures::add_motion(const TrafficBatch& batch) {
     const double position_m = batch.position_m[i];
     if (position_m < seen.position_m) ++totals_.reversals;
     seen.position_m = position_m;
+    add_step(seen.fuel, batch.speed_mps[i], batch.acceleration_mps2[i], parameters_.stop_speed_mps);
     if (measured) {
       Sums& group = sums(seen);
       group.acceleration_mps2 += std::abs(batch.acceleration_mps2[i]);
@@ -222,14 +236,19 @@ void RunMeasures::add_departures(const TrafficBatch& batch) {
     FinishedCar& car = leaving.car;
     car.left_s = batch.left_time_s[i];
     car.delay_s = car.left_s - car.entered_s - leaving.free_time_s;
+    car.fuel_ml = leaving.fuel.fuel_ml;
+    car.fuel_standing_ml = leaving.fuel.standing_ml;
     leaving.left = true;
     finished_.push_back(car);
     Sums& group = sums(leaving);
     ++group.left_ever;
     group.delay_ever_s += car.delay_s;
+    group.burnt += leaving.fuel;
     if (!leaving.counts) continue;
     ++group.left;
     group.delay_s += car.delay_s;
+    group.fuel_ml += car.fuel_ml;
+    group.fuel_standing_ml += car.fuel_standing_ml;
   }
   std::ranges::stable_sort(finished_, {}, &FinishedCar::left_s);
   for (Records& records : records_) {
@@ -278,6 +297,9 @@ RunMeasures::Sums& RunMeasures::Sums::operator+=(const Sums& other) {
   queued_steps += other.queued_steps;
   acceleration_mps2 += other.acceleration_mps2;
   driven_steps += other.driven_steps;
+  fuel_ml += other.fuel_ml;
+  fuel_standing_ml += other.fuel_standing_ml;
+  burnt += other.burnt;
   return *this;
 }
 
@@ -300,7 +322,19 @@ GroupFigures RunMeasures::figures_of(const Sums& sums) const {
   group.stops_per_vehicle = ratio(static_cast<double>(sums.stops), sums.crossed);
   group.mean_queue_veh = ratio(static_cast<double>(sums.queued_steps), measured_steps_ * kLanes);
   group.mean_abs_acceleration_mps2 = ratio(sums.acceleration_mps2, sums.driven_steps);
+  group.mean_fuel_ml = ratio(sums.fuel_ml, sums.left);
+  group.mean_fuel_standing_ml = ratio(sums.fuel_standing_ml, sums.left);
   return group;
+}
+
+FuelTotals RunMeasures::burnt(bool equipped) const {
+  FuelTotals fuel = equipped ? equipped_.burnt : unequipped_.burnt;
+  for (const Records& records : records_) {
+    for (const Record& seen : records.cars) {
+      if (seen.car.equipped == equipped && !seen.left) fuel += seen.fuel;
+    }
+  }
+  return fuel;
 }
 
 RunFigures RunMeasures::figures() const {
@@ -310,6 +344,10 @@ RunFigures RunMeasures::figures() const {
   figures.all = figures_of(all);
   figures.equipped = figures_of(equipped_);
   figures.unequipped = figures_of(unequipped_);
+  figures.equipped.fuel = burnt(true);
+  figures.unequipped.fuel = burnt(false);
+  figures.all.fuel = figures.equipped.fuel;
+  figures.all.fuel += figures.unequipped.fuel;
   return figures;
 }
 

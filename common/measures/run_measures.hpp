@@ -11,6 +11,7 @@
 #include "common/intersection/geometry.hpp"
 #include "common/intersection/lane.hpp"
 #include "common/intersection/signal_plan.hpp"
+#include "common/measures/fuel.hpp"
 #include "common/measures/rows.hpp"
 #include "common/measures/stop_cause.hpp"
 
@@ -53,6 +54,9 @@ struct GroupFigures {
   std::optional<double> stops_per_vehicle;
   std::optional<double> mean_queue_veh;              ///< standing cars per lane, over the steps after the warm-up
   std::optional<double> mean_abs_acceleration_mps2;  ///< over all cars on the road and the steps after the warm-up
+  FuelTotals fuel;                                   ///< of all cars since step 0
+  std::optional<double> mean_fuel_ml;                ///< as mean_delay_s, and the next
+  std::optional<double> mean_fuel_standing_ml;
 };
 
 /// A group of cars as it stands now. Everything counts from step 0 on, warm-up included; stops and standing before the
@@ -131,6 +135,7 @@ class RunMeasures {
   struct Record {
     FinishedCar car;
     std::optional<FinishedStop> stop;  ///< that lasts
+    FuelTotals fuel;
     double free_time_s = 0.0;
     double position_m = 0.0;
     Step newest_advice = -1;
@@ -167,6 +172,9 @@ class RunMeasures {
     std::uint64_t queued_steps = 0;  ///< cars standing, summed over the steps after the warm-up
     double acceleration_mps2 = 0.0;  ///< without its sign, summed over cars and the steps after the warm-up
     std::uint64_t driven_steps = 0;  ///< terms of that sum
+    double fuel_ml = 0.0;            ///< of those that left, as the next
+    double fuel_standing_ml = 0.0;
+    FuelTotals burnt;  ///< since step 0, by those that left
 
     Sums& operator+=(const Sums& other);
   };
@@ -185,6 +193,8 @@ class RunMeasures {
   void add_crossings(const TrafficBatch& batch);
   void add_departures(const TrafficBatch& batch);
   void add_fates(const TrafficBatch& batch);
+  /// What the cars of a group have burnt since step 0.
+  [[nodiscard]] FuelTotals burnt(bool equipped) const;
   [[nodiscard]] GroupFigures figures_of(const Sums& sums) const;
   [[nodiscard]] GroupNow now_of(const Sums& sums) const;
 

@@ -17,6 +17,10 @@ std::string guidance_columns() {
          "commanded_speed_mps";
 }
 std::string requests_columns() { return "step,time_s,rsu,lanes,outcome,rule"; }
+std::string safety_columns() {
+  return "step,time_s,kind,vehicle,lane,equipped,other,other_lane,other_equipped,guided,began_step,began_s,last_step,"
+         "worst_step,worst_s,value,distance_m,speed_mps";
+}
 
 std::string_view name_of(RequestOutcome outcome) {
   switch (outcome) {
@@ -71,6 +75,11 @@ Expected<EventTables> EventTables::create(const std::filesystem::path& folder, c
     auto requests = TableWriter::create(folder / kRequestsTable, requests_columns());
     if (!requests) return requests.error();
     tables.requests_.emplace(std::move(requests).value());
+  }
+  if (asked.safety) {
+    auto safety = TableWriter::create(folder / kSafetyTable, safety_columns());
+    if (!safety) return safety.error();
+    tables.safety_.emplace(std::move(safety).value());
   }
   return tables;
 }
@@ -143,8 +152,32 @@ void EventTables::add(const MissedDeadline& row) {
   table.end_row();
 }
 
+void EventTables::add(const Encounter& row) {
+  if (!safety_) return;
+  TableWriter& table = *safety_;
+  table.whole(row.ended);
+  table.tenths(row.ended);
+  table.name(kSafetyKindNames[static_cast<std::size_t>(row.kind)]);
+  table.count(row.vehicle);
+  table.name(name(row.lane));
+  table.whole(row.equipped ? 1 : 0);
+  row.other ? table.count(*row.other) : table.name("");
+  table.name(row.other_lane ? name(*row.other_lane) : std::string_view());
+  row.other_equipped ? table.whole(*row.other_equipped ? 1 : 0) : table.name("");
+  table.whole(row.guided ? 1 : 0);
+  table.whole(row.began);
+  table.tenths(row.began);
+  table.whole(row.last);
+  table.whole(row.worst);
+  table.tenths(row.worst);
+  table.real(row.value);
+  table.real(row.distance_m);
+  table.real(row.speed_mps);
+  table.end_row();
+}
+
 Expected<Done> EventTables::flush() {
-  for (std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_}) {
+  for (std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_, &safety_}) {
     if (!*table) continue;
     if (auto flushed = (*table)->flush(); !flushed) return flushed;
   }
@@ -152,7 +185,7 @@ Expected<Done> EventTables::flush() {
 }
 
 Expected<Done> EventTables::sync() {
-  for (std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_}) {
+  for (std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_, &safety_}) {
     if (!*table) continue;
     if (auto synced = (*table)->sync(); !synced) return synced;
   }
@@ -161,7 +194,7 @@ Expected<Done> EventTables::sync() {
 
 std::size_t EventTables::buffered_bytes() const {
   std::size_t bytes = 0;
-  for (const std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_}) {
+  for (const std::optional<TableWriter>* table : {&stops_, &guidance_, &requests_, &safety_}) {
     if (*table) bytes += (*table)->buffered_bytes();
   }
   return bytes;
@@ -171,6 +204,7 @@ std::vector<FileEntry> EventTables::entries() const {
   std::vector<FileEntry> entries;
   if (guidance_) entries.push_back({kGuidanceTable, guidance_->sha256(), guidance_->rows_flushed()});
   if (requests_) entries.push_back({kRequestsTable, requests_->sha256(), requests_->rows_flushed()});
+  if (safety_) entries.push_back({kSafetyTable, safety_->sha256(), safety_->rows_flushed()});
   if (stops_) entries.push_back({kStopsTable, stops_->sha256(), stops_->rows_flushed()});
   return entries;
 }

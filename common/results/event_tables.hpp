@@ -16,11 +16,13 @@ namespace lukou::results {
 inline constexpr const char* kStopsTable = "stops.csv";
 inline constexpr const char* kGuidanceTable = "guidance.csv";
 inline constexpr const char* kRequestsTable = "requests.csv";
+inline constexpr const char* kSafetyTable = "safety.csv";
 
 /// Header lines.
 std::string stops_columns();
 std::string guidance_columns();
 std::string requests_columns();
+std::string safety_columns();
 
 /// "accepted", "deferred", "overruled", "refused" or "ended".
 std::string_view name_of(RequestOutcome outcome);
@@ -35,6 +37,7 @@ class EventTables {
     bool stops = false;
     bool guidance = false;
     bool requests = false;
+    bool safety = false;
   };
   static Expected<EventTables> create(const std::filesystem::path& folder, const Asked& asked);
 
@@ -43,6 +46,7 @@ class EventTables {
   void add(const SettledAdvice& row);
   void add(const RequestRow& row);
   void add(const MissedDeadline& row);
+  void add(const Encounter& row);
 
   Expected<Done> flush();
   Expected<Done> sync();
@@ -56,6 +60,7 @@ class EventTables {
   std::optional<TableWriter> stops_;
   std::optional<TableWriter> guidance_;
   std::optional<TableWriter> requests_;
+  std::optional<TableWriter> safety_;
 };
 
 }  // namespace lukou::results

@@ -99,6 +99,7 @@ class Inspector {
   void event_tables() {
     for (const auto& [name, columns] : {std::pair(kGuidanceTable, guidance_columns()),
                                         {kRequestsTable, requests_columns()},
+                                        {kSafetyTable, safety_columns()},
                                         {kStopsTable, stops_columns()}}) {
       std::error_code code;
       if (!fs::is_regular_file(folder_ / name, code)) continue;

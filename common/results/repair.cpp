@@ -72,7 +72,8 @@ RowCheck kept_until(const std::string& name, const std::string& columns, Step la
   // Tables list what happened in the order of the steps, so what lies beyond the last one stands at the end.
   if (name == kCarTable) {
     // left_s is rounded to six decimals.
-    return [last](const auto& cells, std::int64_t) { return above(cells.back(), time_s(last) + 1e-6); };
+    constexpr std::size_t kLeft = 11;
+    return [last](const auto& cells, std::int64_t) { return above(cells[kLeft], time_s(last) + 1e-6); };
   }
   if (columns.starts_with("step,")) {
     return [last](const auto& cells, std::int64_t) { return above(cells.front(), static_cast<double>(last)); };
@@ -111,7 +112,8 @@ Expected<Manifest> repair(const fs::path& folder, const Manifest& facts) {
   if (!cars) return cars.error();
   for (const auto& [name, columns] : {std::pair(kStopsTable, stops_columns()),
                                       {kGuidanceTable, guidance_columns()},
-                                      {kRequestsTable, requests_columns()}}) {
+                                      {kRequestsTable, requests_columns()},
+                                      {kSafetyTable, safety_columns()}}) {
     if (!fs::is_regular_file(folder / name, code)) continue;  // the scenario did not ask for it
     if (auto named = with_columns(folder / name, columns); !named) return named.error();
   }

@@ -23,7 +23,7 @@ void begin_step(TableWriter& table, Step step) {
 
 std::string car_columns() {
   return "vehicle,lane,equipped,entered_s,init_velocity_mps,theoretical_time_s,act_time_s,delta_s,delay_s,stops,"
-         "stop_time_s,left_s";
+         "stop_time_s,left_s,fuel_ml,fuel_standing_ml";
 }
 std::string stop_columns() { return "step,time_s," + lane_columns("") + "system_total,mean_per_vehicle,standing_now"; }
 std::string road_columns() {
@@ -60,6 +60,8 @@ void RunTables::add_car(const FinishedCar& row) {
   car_.count(row.stops);
   car_.tenths(row.standing_steps);
   car_.real(row.left_s);
+  car_.real(row.fuel_ml);
+  car_.real(row.fuel_standing_ml);
   car_.end_row();
 }
 

@@ -20,6 +20,7 @@ RecorderConfig recorder_config(const scenario::Resolved& scenario) {
   config.stop_on_overflow = s.run().on_overflow() == scenario::Overflow::STOP;
   config.record_stops = s.record().stops();
   config.record_guidance = s.record().guidance();
+  config.record_safety = s.record().safety();
   config.actuated = s.signals().has_actuation();
   config.seed = protocol.seed;
   config.end = protocol.end;

@@ -13,6 +13,7 @@ struct RecorderConfig {
   bool stop_on_overflow = true;
   bool record_stops = true;
   bool record_guidance = false;
+  bool record_safety = true;
   bool actuated = false;  ///< the controller hears requests for greens
   std::uint64_t seed = 0;
   Step end = 0;

@@ -69,8 +69,10 @@ Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, 
   auto tables = results::RunTables::create(folder);
   if (!tables) return tables.error();
   const RecorderConfig config = recorder_config(scenario);
-  auto events = results::EventTables::create(
-      folder, {.stops = config.record_stops, .guidance = config.record_guidance, .requests = config.actuated});
+  auto events = results::EventTables::create(folder, {.stops = config.record_stops,
+                                                      .guidance = config.record_guidance,
+                                                      .requests = config.actuated,
+                                                      .safety = config.record_safety});
   if (!events) return events.error();
   return RecorderNode(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
                       std::move(events).value());
@@ -84,7 +86,9 @@ RecorderNode::RecorderNode(const RecorderConfig& config, std::string scenario_ha
       tables_(std::move(tables)),
       events_(std::move(events)),
       radio_(folder_),
-      measures_(config_.measures) {}
+      measures_(config_.measures) {
+  if (config_.record_safety) safety_.emplace(config_.measures.road, config_.measures.vehicle_length_m);
+}
 
 void RecorderNode::add(const std::vector<Directive>& directives) {
   log_.sets.insert(log_.sets.end(), directives.begin(), directives.end());
@@ -129,6 +133,10 @@ Expected<Done> RecorderNode::flush() {
 
 void RecorderNode::add_events(const TrafficBatch& traffic) {
   for (const FinishedStop& stop : measures_.finished_stops()) events_.add(stop);
+  if (safety_) {
+    safety_->add(traffic);
+    for (const Encounter& encounter : safety_->finished()) events_.add(encounter);
+  }
   if (!config_.record_guidance) return;
   ledger_.add(traffic);
   for (const SettledAdvice& advice : ledger_.settled()) events_.add(advice);
@@ -212,6 +220,11 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   // What lasts at the end ends with it.
   for (const FinishedStop& stop : measures_.lasting_stops()) events_.add(stop);
   for (const SettledAdvice& advice : ledger_.close()) events_.add(advice);
+  std::optional<SafetyFigures> safety;
+  if (safety_) {
+    for (const Encounter& encounter : safety_->close()) events_.add(encounter);
+    safety = safety_->figures();
+  }
   if (auto done = radio_.sync(); !done) return done;
   if (auto done = events_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
@@ -219,8 +232,8 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   if (config_.actuated || requests_.figures().asked > 0) requests = requests_.figures();
   std::optional<std::uint64_t> misses;
   if (std::ranges::find(config_.rsu_measured, true) != config_.rsu_measured.end()) misses = deadline_misses_;
-  const std::string summary =
-      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any(), requests, misses);
+  const std::string summary = summary_json(measures_.figures(), complete_to, config_.measures.warmup_s,
+                                           reception_.any(), requests, misses, safety);
   const std::string directives = scenario::text(log_);
   if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
   if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;

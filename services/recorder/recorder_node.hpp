@@ -12,6 +12,7 @@
 #include "common/measures/advice_ledger.hpp"
 #include "common/measures/reception_measures.hpp"
 #include "common/measures/request_ledger.hpp"
+#include "common/measures/safety_measures.hpp"
 #include "common/results/event_tables.hpp"
 #include "common/results/radio_table.hpp"
 #include "common/results/tables.hpp"
@@ -63,6 +64,7 @@ class RecorderNode {
   results::EventTables events_;
   results::RadioTable radio_;
   RunMeasures measures_;
+  std::optional<SafetyMeasures> safety_;  ///< empty: not recorded
   AdviceLedger ledger_;
   ReceptionMeasures reception_;
   RequestLedger requests_;

@@ -72,10 +72,46 @@ Json requests_json(const RequestFigures& requests) {
             {"fixed_plan", requests.fixed_plan}}}};
 }
 
+Json safety_json(const SafetyCounts& counts) {
+  return {{"driven_s", static_cast<double>(counts.driven_steps) / static_cast<double>(kStepsPerSecond)},
+          {"ttc", counts.count(SafetyKind::kTtc)},
+          {"ttc_critical", counts.ttc_critical},
+          {"ttc_min_s", number(counts.ttc_min_s)},
+          {"mttc", counts.count(SafetyKind::kMttc)},
+          {"drac", counts.count(SafetyKind::kDrac)},
+          {"drac_critical", counts.drac_critical},
+          {"hard_braking", counts.count(SafetyKind::kHardBraking)},
+          {"jerk", counts.count(SafetyKind::kJerk)},
+          {"pet", counts.count(SafetyKind::kPet)},
+          {"pet_both_inside", counts.pet_both_inside}};
+}
+
+Json safety_json(const SafetyFigures& figures) {
+  Json json = safety_json(figures.all);
+  json["equipped"] = safety_json(figures.equipped);
+  json["unequipped"] = safety_json(figures.unequipped);
+  json["guided"] = safety_json(figures.guided);
+  json["opposed_lefts"] = {{"pet", figures.opposed_lefts}, {"pet_both_inside", figures.opposed_lefts_both_inside}};
+  return json;
+}
+
+Json fuel_json(const GroupFigures& group) {
+  constexpr double kMl_per_l = 1000.0;
+  const double fuel_l = group.fuel.fuel_ml / kMl_per_l;
+  return {{"fuel_l", fuel_l},
+          {"standing_l", group.fuel.standing_ml / kMl_per_l},
+          {"accelerating_l", group.fuel.accelerating_ml / kMl_per_l},
+          {"co2_kg", fuel_l * kCo2_kg_per_l},
+          {"mean_fuel_ml", number(group.mean_fuel_ml)},
+          {"mean_fuel_standing_ml", number(group.mean_fuel_standing_ml)},
+          {"check_fuel_l", group.fuel.check_ml / kMl_per_l}};
+}
+
 }  // namespace
 
 std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
-                         const std::optional<RequestFigures>& requests, std::optional<std::uint64_t> deadline_misses) {
+                         const std::optional<RequestFigures>& requests, std::optional<std::uint64_t> deadline_misses,
+                         const std::optional<SafetyFigures>& safety) {
   Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
@@ -105,6 +141,10 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
   json["reversals"] = figures.reversals;
   json["red_crossings"] = figures.red_crossings;
   json["min_head_distance_m"] = number(figures.min_head_distance_m);
+  if (safety) json["safety"] = safety_json(*safety);
+  json["fuel"] = fuel_json(figures.all);
+  json["fuel"]["equipped"] = fuel_json(figures.equipped);
+  json["fuel"]["unequipped"] = fuel_json(figures.unequipped);
   return results::json_text(json);
 }
 

@@ -66,6 +66,21 @@ std::string requests_text(const Json& signals) {
   return text + "\n";
 }
 
+/// "encounters: 812 TTC < 3 s (20 < 1.5 s), 40 DRAC >= 3 m/s2, ...; with guidance in force ...; opposed lefts apart: 9"
+std::string encounters_text(const Json& safety) {
+  return "encounters: " + cell(safety["ttc"]) + " TTC < 3 s (" + cell(safety["ttc_critical"]) + " < 1.5 s), " +
+         cell(safety["drac"]) + " DRAC >= 3 m/s2, " + cell(safety["hard_braking"]) + " hard brakings, " +
+         cell(safety["pet"]) + " PET < 2 s; with guidance in force " + cell(safety["guided"]["ttc"]) +
+         " TTC; opposed lefts, apart: " + cell(safety["opposed_lefts"]["pet"]) + " PET\n";
+}
+
+/// "fuel: 512.33 l (101.20 standing, 190.02 to accelerate), 61.20 ml per vehicle, 1202.81 kg CO2; VT-CPFM: 800.10 l"
+std::string fuel_text(const Json& fuel) {
+  return "fuel: " + cell(fuel["fuel_l"]) + " l (" + cell(fuel["standing_l"]) + " standing, " +
+         cell(fuel["accelerating_l"]) + " to accelerate), " + cell(fuel["mean_fuel_ml"]) + " ml per vehicle, " +
+         cell(fuel["co2_kg"]) + " kg CO2; VT-CPFM: " + cell(fuel["check_fuel_l"]) + " l\n";
+}
+
 }  // namespace
 
 std::string summary_text(const launch::RunReport& report) {
@@ -100,6 +115,8 @@ std::string summary_text(const launch::RunReport& report) {
     text += "safety: " + cell(summary["collisions"]) + " collisions, " + cell(summary["reversals"]) + " reversals, " +
             cell(summary["red_crossings"]) + " crossings on red (cars that could not stop), least head distance " +
             cell(summary["min_head_distance_m"]) + " m\n";
+    if (summary.contains("safety")) text += encounters_text(summary["safety"]);
+    if (summary.contains("fuel")) text += fuel_text(summary["fuel"]);
     if (summary["mean_delay_s"].is_null()) {
       text += "(no means: no car entered after the warm-up of " + cell(summary["warmup_s"]) + " s and crossed)\n";
     }

@@ -464,5 +464,35 @@ TEST(RunMeasuresNow, TellsTheNewestAdviceThatReachedACar) {
   EXPECT_EQ(script.measures().now(0).newest_advice, 7) << "one was older, one lost, one for a car that is not there";
 }
 
+TEST(RunMeasures, AddUpFuelAndKeepStandingApart) {
+  Script script;
+  script.enter(0, true);
+  script.drive(0, 0.0, 10.0);
+  script.next();
+  for (int i = 0; i < 20; ++i) {
+    script.drive(0, 100.0, 0.0);
+    script.next();
+  }
+  script.drive(0, 101.0, 10.0, CarState::kIn, 2.0);
+  script.next();
+  script.cross(0, 2.2);
+  script.next();
+  script.leave(0, 2.3);
+  script.next();
+  // Idle: 20 steps of 0.01569 mL. At 10 m/s 0.1569 + 0.245 - 0.07415 + 0.05975 = 0.3875 mL/s, twice for 0.1 s; the
+  // second time with 2 m/s2 on top: 2 * (0.07224 + 0.9681 + 0.1075) = 2.29568 mL/s.
+  ASSERT_EQ(script.finished().size(), 1U);
+  const FinishedCar& car = script.finished()[0];
+  EXPECT_NEAR(car.fuel_standing_ml, 0.3138, 1e-12);
+  EXPECT_NEAR(car.fuel_ml, 0.3138 + 2 * 0.03875 + 0.229568, 1e-12);
+  const RunFigures figures = script.measures().figures();
+  EXPECT_NEAR(figures.equipped.fuel.accelerating_ml, 0.229568, 1e-12);
+  EXPECT_NEAR(figures.all.fuel.standing_ml, 0.3138, 1e-12);
+  EXPECT_DOUBLE_EQ(figures.all.fuel.fuel_ml, car.fuel_ml);
+  EXPECT_DOUBLE_EQ(*figures.all.mean_fuel_ml, car.fuel_ml);
+  EXPECT_DOUBLE_EQ(figures.unequipped.fuel.fuel_ml, 0.0);
+  EXPECT_FALSE(figures.unequipped.mean_fuel_ml);
+}
+
 }  // namespace
 }  // namespace lukou

@@ -104,6 +104,35 @@ TEST_F(Events, HaveARowForADeadlineThatAnRsuMissed) {
   EXPECT_EQ(content("guidance.csv"), guidance_columns() + "\n121,12.1,120,12.0,1,,,,,deadline_missed,0.137,,,\n");
 }
 
+TEST_F(Events, OfEncountersAreWrittenAsDocumented) {
+  auto tables = EventTables::create(folder(), {.safety = true});
+  ASSERT_TRUE(tables.ok()) << tables.error().text();
+  tables.value().add(Encounter{.ended = 131,
+                               .kind = SafetyKind::kTtc,
+                               .vehicle = 9,
+                               .lane = lane_of(Approach::kSouth, Turn::kCenter),
+                               .equipped = true,
+                               .other = 5,
+                               .other_lane = lane_of(Approach::kSouth, Turn::kCenter),
+                               .other_equipped = false,
+                               .guided = true,
+                               .began = 102,
+                               .last = 121,
+                               .worst = 115,
+                               .value = 1.25,
+                               .distance_m = 40.5,
+                               .speed_mps = 12.0});
+  tables.value().add(Encounter{.ended = 140, .kind = SafetyKind::kHardBraking, .vehicle = 3, .value = -4.5});
+  ASSERT_TRUE(tables.value().sync().ok());
+  EXPECT_EQ(content("safety.csv"),
+            "step,time_s,kind,vehicle,lane,equipped,other,other_lane,other_equipped,guided,began_step,began_s,"
+            "last_step,worst_step,worst_s,value,distance_m,speed_mps\n"
+            "131,13.1,ttc,9,SC,1,5,SC,0,1,102,10.2,121,115,11.5,1.25,40.5,12\n"
+            "140,14.0,hard_braking,3,WL,0,,,,0,0,0.0,0,0,0.0,-4.5,0,0\n");
+  ASSERT_EQ(tables.value().entries().size(), 1U);
+  EXPECT_EQ(tables.value().entries()[0].name, "safety.csv");
+}
+
 TEST_F(Events, AreLeftOutWhenNobodyAskedForThem) {
   auto tables = EventTables::create(folder(), {});
   ASSERT_TRUE(tables.ok());

@@ -121,7 +121,7 @@ TEST_F(Results, SayWhichRowHasTooFewCells) {
   write("car.csv", car_columns() + "\n1,WL\n");
   EXPECT_EQ(faults(),
             "* manifest.json: is missing; the run was cut off\n"
-            "* car.csv:2: has 2 cells, must have 12\n");
+            "* car.csv:2: has 2 cells, must have 14\n");
 }
 
 TEST_F(Results, ThatSayDoneTooEarlyAreNotSound) {
@@ -148,7 +148,7 @@ TEST_F(Results, OfALostRecorderAreRepairedToTheLastStepThatAllTablesHave) {
   EXPECT_EQ(faults(), "");
   EXPECT_EQ(inspect(folder()).value().manifest, manifest.value());
   // t_3 = 0.3 s: the car that left at 0.25 s stays, the one at 0.45 s goes.
-  EXPECT_EQ(content("car.csv"), car_columns() + "\n4,WL,0,0,0,0,0,0,0,0,0.0,0.25\n");
+  EXPECT_EQ(content("car.csv"), car_columns() + "\n4,WL,0,0,0,0,0,0,0,0,0.0,0.25,0,0\n");
   EXPECT_EQ(content("others.csv"), "step,vehicle\n1,4\n3,4\n");
   for (const FileEntry& file : manifest.value().files) {
     EXPECT_EQ(file.sha256, sha256_hex(content(file.name))) << file.name;
@@ -163,10 +163,16 @@ std::string stop_row(Step step) {
   return std::to_string(step) + ",0.1,4,WL,0,1,0.1,2.5,0.1,unequipped,not_equipped,\n";
 }
 
+/// A row of safety.csv.
+std::string safety_row(Step step) {
+  return std::to_string(step) + ",0.1,ttc,8,WL,1,4,WL,0,0,1,0.1,2,1,0.1,2.5,30,12\n";
+}
+
 TEST_F(Results, MayHoldTablesOfEvents) {
   write("stops.csv", stops_columns() + "\n" + stop_row(2) + stop_row(2) + stop_row(5));
   write("guidance.csv", guidance_columns() + "\n");
   write("requests.csv", requests_columns() + "\n3,0.3,0,WC EC,accepted,\n");
+  write("safety.csv", safety_columns() + "\n" + safety_row(2) + safety_row(5));
   finish();
   EXPECT_EQ(faults(), "");
 }
@@ -181,6 +187,8 @@ TEST_F(Results, SayWhichEventIsOutOfOrderOrBeyondTheEnd) {
   EXPECT_EQ(faults(),
             "* stops.csv:2: is of step `6`, must be of one from 0 to 5\n"
             "stops.csv: does not stand in the manifest\n");
+  write("safety.csv", safety_columns() + "\n" + safety_row(4) + safety_row(3));
+  EXPECT_NE(faults().find("* safety.csv:3: is of step `3`, must be of one from 4 to 5"), std::string::npos);
   write("stops.csv", "step\n");
   EXPECT_NE(faults().find("stops.csv:1: has other columns than " + stops_columns()), std::string::npos);
 }
@@ -190,8 +198,10 @@ TEST_F(Results, OfALostRecorderKeepTheEventsUpToTheLastStep) {
   write("stops.csv", stops_columns() + "\n" + stop_row(2) + stop_row(4) + stop_row(5) + "5,0.5");
   write("guidance.csv", "");  // killed before the first row
   write("requests.csv", requests_columns() + "\n4,0.4,0,WC,accepted,\n5,0.5,0,WC,refused,conflict\n");
+  write("safety.csv", safety_columns() + "\n" + safety_row(4) + safety_row(5));
   const auto manifest = repair(folder(), facts("lost:recorder"));
   ASSERT_TRUE(manifest.ok()) << manifest.error().text();
+  EXPECT_EQ(content("safety.csv"), safety_columns() + "\n" + safety_row(4));
   EXPECT_EQ(content("stops.csv"), stops_columns() + "\n" + stop_row(2) + stop_row(4));
   EXPECT_EQ(content("guidance.csv"), guidance_columns() + "\n");
   EXPECT_EQ(content("requests.csv"), requests_columns() + "\n4,0.4,0,WC,accepted,\n");

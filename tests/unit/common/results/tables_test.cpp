@@ -11,7 +11,7 @@ namespace {
 TEST(Columns, AreThoseOfTheDesign) {
   EXPECT_EQ(car_columns(),
             "vehicle,lane,equipped,entered_s,init_velocity_mps,theoretical_time_s,act_time_s,delta_s,delay_s,stops,"
-            "stop_time_s,left_s");
+            "stop_time_s,left_s,fuel_ml,fuel_standing_ml");
   EXPECT_EQ(stop_columns(),
             "step,time_s,WL,WC,WR,SL,SC,SR,EL,EC,ER,NL,NC,NR,system_total,mean_per_vehicle,standing_now");
   EXPECT_EQ(road_columns(),
@@ -53,7 +53,9 @@ TEST_F(Tables, HaveARowPerStepAndARowPerCar) {
                           .delay_s = 14.125,
                           .stops = 1,
                           .standing_steps = 83,
-                          .left_s = 52.0625});
+                          .left_s = 52.0625,
+                          .fuel_ml = 61.5,
+                          .fuel_standing_ml = 1.25});
   tables.value().add_step(2, stop, road, stop_time);
   ASSERT_TRUE(tables.value().sync().ok());
   EXPECT_EQ(content("stop.csv"),
@@ -62,7 +64,7 @@ TEST_F(Tables, HaveARowPerStepAndARowPerCar) {
             road_columns() + "\n1,0.1,0,6,0,0,0,0,0,0,0,0,0,0,6,0.5,4\n2,0.2,0,6,0,0,0,0,0,0,0,0,0,0,6,0.5,4\n");
   const std::string stood = ",0.0,0.0,1.5,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,1.5,0.75\n";
   EXPECT_EQ(content("stop_time.csv"), stop_time_columns() + "\n1,0.1" + stood + "2,0.2" + stood);
-  EXPECT_EQ(content("car.csv"), car_columns() + "\n8,NR,1,0.1,12.5,30.25,45.5,15.25,14.125,1,8.3,52.0625\n");
+  EXPECT_EQ(content("car.csv"), car_columns() + "\n8,NR,1,0.1,12.5,30.25,45.5,15.25,14.125,1,8.3,52.0625,61.5,1.25\n");
 }
 
 TEST_F(Tables, KnowTheirHashesAndRowsForTheManifest) {
