@@ -230,7 +230,7 @@ void SafetyMeasures::finish(Encounter encounter) {
     count(group(encounter.equipped), encounter);
     if (encounter.guided) count(guided_, encounter);
   }
-  finished_.push_back(std::move(encounter));
+  finished_.push_back(encounter);
 }
 
 std::vector<Encounter> SafetyMeasures::close() {
