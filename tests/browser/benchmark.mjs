@@ -110,8 +110,9 @@ async function memory(browser, run) {
 
 const browser = await launch();
 pageSize();
-// 2000 m of approach hold about 300 cars at 1800 veh/h each.
-const run = await startRun(['--pace', 'max', '--duration', '200000', '--set', 'traffic.approach_length_m=2000']);
+// Long enough for the minutes at 100x. 2000 m of approach hold about 300 cars at 1800 veh/h each.
+const duration = String(20_000 + 6000 * (minutes + 2));
+const run = await startRun(['--pace', 'max', '--duration', duration, '--set', 'traffic.approach_length_m=2000']);
 try {
   const viewer = await openPage(browser, run.url);
   await until(async () => (await stepOf(viewer.page)) > 4000, '400 s simulated', 120_000);
