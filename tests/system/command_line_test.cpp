@@ -38,6 +38,8 @@ TEST(CommandLine, ListsEachAlgorithmWithItsSourceAndParameters) {
     EXPECT_NE(("\n" + run.out).find("\n" + std::string(name) + ": "), std::string::npos) << name;
   }
   EXPECT_NE(run.out.find("speed_min_kmh            default 18 km/h, [1, 60]; "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("stages                   default AXES, AXES | PROTECTED_LEFTS; "), std::string::npos)
+      << run.out;
 
   const Finished bad = lukou({"validate", "paper", "--set", "rsus[0].glosa.speed_min_kmh=500"});
   EXPECT_EQ(bad.code, 2);
@@ -45,7 +47,8 @@ TEST(CommandLine, ListsEachAlgorithmWithItsSourceAndParameters) {
 }
 
 TEST(CommandLine, RunsEachAlgorithmInOneProcess) {
-  for (const char* name : {"eco", "glosa", "glosa_queue", "platoon", "speed_harmonisation"}) {
+  for (const char* name :
+       {"actuated", "cv_phase", "eco", "glosa", "glosa_queue", "max_pressure", "platoon", "speed_harmonisation"}) {
     const TemporaryFolder folder;
     const Finished run = lukou({"run", "paper", "--mode", "in-process", "--duration", "120", "--quiet",
                                 "--rsu-algorithm", name, "--out", folder / "r"});
