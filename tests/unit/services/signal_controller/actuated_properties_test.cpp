@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "common/intersection/conflicts.hpp"
@@ -125,10 +126,11 @@ void check_lane(const std::vector<Heads>& heads, std::size_t lane, const Actuati
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Stretch& now = found[i];
     const Step lasted = now.to - now.from;
-    const bool whole = i + 1 < found.size();
+    const std::optional<Aspect> next = i + 1 < found.size() ? std::optional(found[i + 1].aspect) : std::nullopt;
     switch (now.aspect) {
       case Aspect::kGreen:
-        RC_ASSERT(!whole || (lasted >= rules.min_green && found[i + 1].aspect == Aspect::kYellow));
+        if (next) RC_ASSERT(lasted >= rules.min_green);
+        if (next) RC_ASSERT(*next == Aspect::kYellow);
         for (const Lane other : kAllLanes) {
           if (conflict(static_cast<Lane>(lane), other) != Conflict::kHard) continue;
           for (Step at = std::max<Step>(0, now.from - rules.all_red); at < now.from; ++at) {
@@ -137,10 +139,11 @@ void check_lane(const std::vector<Heads>& heads, std::size_t lane, const Actuati
         }
         break;
       case Aspect::kYellow:
-        RC_ASSERT(!whole || (lasted == rules.yellow && found[i + 1].aspect == Aspect::kRed));
+        if (next) RC_ASSERT(lasted == rules.yellow);
+        if (next) RC_ASSERT(*next == Aspect::kRed);
         break;
       case Aspect::kRed:
-        RC_ASSERT(!whole || found[i + 1].aspect == Aspect::kGreen);
+        if (next) RC_ASSERT(*next == Aspect::kGreen);
         RC_ASSERT(lasted <= longest_red(rules));
         break;
     }
