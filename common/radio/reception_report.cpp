@@ -12,6 +12,18 @@ void append_column(Column& to, const Column& from) {
 
 }  // namespace
 
+std::string_view name(Direction direction) {
+  switch (direction) {
+    case Direction::kUplink:
+      return "uplink";
+    case Direction::kDownlink:
+      return "downlink";
+    case Direction::kVehicleToVehicle:
+      return "v2v";
+  }
+  return "unknown";
+}
+
 void ReceptionTally::clear() {
   sent = heard = lost_random = lost_burst = lost_range = duplicates = 0;
   lost_path_loss = lost_collision = lost_half_duplex = lost_outage = 0;

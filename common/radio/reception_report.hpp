@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "common/messages/frames.hpp"
@@ -11,6 +12,9 @@ namespace lukou {
 
 /// Which way a frame goes; the values stand on the bus.
 enum class Direction : std::uint8_t { kUplink = 0, kDownlink = 1, kVehicleToVehicle = 2 };
+
+/// "uplink", "downlink", "v2v": as in radio.csv.
+std::string_view name(Direction direction);
 
 /// Counts what became of frames of one kind in one direction. A frame counts once per receiver.
 struct ReceptionTally {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "common/lockstep/roster.hpp"
+#include "common/radio/reception_report.hpp"
 #include "console.pb.h"
 
 namespace lukou::console {
@@ -18,8 +19,7 @@ constexpr double kClockSilent_s = 3.0;  ///< it speaks ten times a second
 /// As in radio.csv, in the order of View::radio_lost.
 constexpr std::array<const char*, 7> kCauses = {"random",    "burst",       "range", "path_loss",
                                                 "collision", "half_duplex", "outage"};
-/// By the values of Direction on the bus.
-constexpr std::array<const char*, 3> kDirections = {"uplink", "downlink", "v2v"};
+constexpr std::size_t kDirections = 3;
 
 std::string octets(const std::vector<std::uint8_t>& column) { return {column.begin(), column.end()}; }
 
@@ -59,8 +59,8 @@ struct DirectionSums {
   [[nodiscard]] double mean_latency_ms() const { return heard == 0 ? 0.0 : latency_ms / static_cast<double>(heard); }
 };
 
-std::array<DirectionSums, kDirections.size()> radio_sums(const View& view) {
-  std::array<DirectionSums, kDirections.size()> sums;
+std::array<DirectionSums, kDirections> radio_sums(const View& view) {
+  std::array<DirectionSums, kDirections> sums;
   for (std::size_t row = 0; row < view.radio_direction.size(); ++row) {
     if (view.radio_direction[row] >= sums.size()) continue;
     DirectionSums& direction = sums[view.radio_direction[row]];
@@ -125,7 +125,7 @@ Statistics statistics_of(const View& view) {
     for (std::size_t cause = 0; cause < kCauses.size(); ++cause) {
       if (sums[direction].lost[cause] == 0) continue;
       LossCount& loss = *statistics.add_losses();
-      loss.set_direction(kDirections[direction]);
+      loss.set_direction(std::string(name(static_cast<Direction>(direction))));
       loss.set_cause(kCauses[cause]);
       loss.set_frames(sums[direction].lost[cause]);
     }

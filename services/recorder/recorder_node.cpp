@@ -15,18 +15,6 @@ namespace {
 
 constexpr std::size_t kFlushBytes = 256U << 10U;
 
-std::string_view name_of(Direction direction) {
-  switch (direction) {
-    case Direction::kUplink:
-      return "uplink";
-    case Direction::kDownlink:
-      return "downlink";
-    case Direction::kVehicleToVehicle:
-      return "v2v";
-  }
-  return "unknown";
-}
-
 std::string_view name_of(FrameKind kind) {
   switch (kind) {
     case FrameKind::kBsm:
@@ -45,7 +33,7 @@ std::string_view name_of(FrameKind kind) {
 
 results::RadioRow row_of(const ReceptionFigures& figures) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  return {.direction = name_of(figures.direction),
+  return {.direction = name(figures.direction),
           .kind = name_of(figures.kind),
           .sent = figures.sent,
           .heard = figures.heard,
@@ -95,10 +83,10 @@ void RecorderNode::add(const std::vector<Directive>& directives) {
 }
 
 Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_signal) {
-  if (new_signal != nullptr && !promise_.extend(new_signal->first, new_signal->heads)) {
-    return Error{"topic lukou/signal", "the batch of step " + std::to_string(new_signal->step) + " leaves a gap"};
-  }
   if (new_signal != nullptr) {
+    if (!promise_.extend(new_signal->first, new_signal->heads)) {
+      return Error{"topic lukou/signal", "the batch of step " + std::to_string(new_signal->step) + " leaves a gap"};
+    }
     heads_.take(*new_signal);
     if (auto done = requests_.add(*new_signal); !done) return done;
     for (const RequestRow& row : requests_.rows()) events_.add(row);
@@ -220,20 +208,20 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   // What lasts at the end ends with it.
   for (const FinishedStop& stop : measures_.lasting_stops()) events_.add(stop);
   for (const SettledAdvice& advice : ledger_.close()) events_.add(advice);
-  std::optional<SafetyFigures> safety;
+  SummaryExtras extras;
   if (safety_) {
     for (const Encounter& encounter : safety_->close()) events_.add(encounter);
-    safety = safety_->figures();
+    extras.safety = safety_->figures();
   }
   if (auto done = radio_.sync(); !done) return done;
   if (auto done = events_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
-  std::optional<RequestFigures> requests;
-  if (config_.actuated || requests_.figures().asked > 0) requests = requests_.figures();
-  std::optional<std::uint64_t> misses;
-  if (std::ranges::find(config_.rsu_measured, true) != config_.rsu_measured.end()) misses = deadline_misses_;
-  const std::string summary = summary_json(measures_.figures(), complete_to, config_.measures.warmup_s,
-                                           reception_.any(), requests, misses, safety);
+  if (config_.actuated || requests_.figures().asked > 0) extras.requests = requests_.figures();
+  if (std::ranges::find(config_.rsu_measured, true) != config_.rsu_measured.end()) {
+    extras.deadline_misses = deadline_misses_;
+  }
+  const std::string summary =
+      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any(), extras);
   const std::string directives = scenario::text(log_);
   if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
   if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;

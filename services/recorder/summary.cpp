@@ -110,8 +110,7 @@ Json fuel_json(const GroupFigures& group) {
 }  // namespace
 
 std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
-                         const std::optional<RequestFigures>& requests, std::optional<std::uint64_t> deadline_misses,
-                         const std::optional<SafetyFigures>& safety) {
+                         const SummaryExtras& extras) {
   Json json = {{"simulated_s", time_s(complete_to)}, {"warmup_s", warmup_s}};
   json.update(group_json(figures.all));
   json["equipped"] = group_json(figures.equipped);
@@ -134,14 +133,14 @@ std::string summary_json(const RunFigures& figures, Step complete_to, double war
     json["advice_lost"] = fates_json(figures, kLost);
     json["advice_dropped"] = fates_json(figures, kDropped);
   }
-  if (requests) json["signals"] = requests_json(*requests);
-  if (deadline_misses) json["rsu_deadline_misses"] = *deadline_misses;
+  if (extras.requests) json["signals"] = requests_json(*extras.requests);
+  if (extras.deadline_misses) json["rsu_deadline_misses"] = *extras.deadline_misses;
   json["guard_interventions"] = figures.guard_interventions;
   json["collisions"] = figures.collisions;
   json["reversals"] = figures.reversals;
   json["red_crossings"] = figures.red_crossings;
   json["min_head_distance_m"] = number(figures.min_head_distance_m);
-  if (safety) json["safety"] = safety_json(*safety);
+  if (extras.safety) json["safety"] = safety_json(*extras.safety);
   json["fuel"] = fuel_json(figures.all);
   json["fuel"]["equipped"] = fuel_json(figures.equipped);
   json["fuel"]["unequipped"] = fuel_json(figures.unequipped);

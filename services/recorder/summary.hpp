@@ -10,13 +10,16 @@
 
 namespace lukou {
 
+/// What summary.json holds only in some runs.
+struct SummaryExtras {
+  std::optional<RequestFigures> requests;        ///< if the controller hears requests for greens, or anybody asked
+  std::optional<std::uint64_t> deadline_misses;  ///< steps that took an RSU longer than a step, if one is measured
+  std::optional<SafetyFigures> safety;           ///< if it is recorded
+};
+
 /// summary.json: every figure of docs/results.md; a mean over no car is null. `radio_modelled`: with what the radio did
-/// to advice. `requests`: how requests for greens fared, if the controller hears them or anybody asked.
-/// `deadline_misses`: steps that took an RSU longer than a step; empty if none is measured. `safety`: empty if it is
-/// not recorded.
+/// to advice.
 std::string summary_json(const RunFigures& figures, Step complete_to, double warmup_s, bool radio_modelled,
-                         const std::optional<RequestFigures>& requests,
-                         std::optional<std::uint64_t> deadline_misses = {},
-                         const std::optional<SafetyFigures>& safety = {});
+                         const SummaryExtras& extras);
 
 }  // namespace lukou

@@ -111,6 +111,10 @@ AlgorithmParameters parameters_of(const scenario::Rsu& from, double acceleration
 
 }  // namespace
 
+MapView map_view(const RsuConfig& config) {
+  return {.speed_limit_mps = config.speed_limit_mps, .approach_length_m = config.road.approach_m};
+}
+
 Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t rsu) {
   if (static_cast<std::int64_t>(rsu) >= scenario.rsus_size()) {
     return Error{"rsus", "there is no RSU number " + std::to_string(rsu) + ": the scenario has " +

@@ -47,6 +47,9 @@ struct RsuConfig {
   ComputingTime computing;
 };
 
+/// What an algorithm is told of the map.
+MapView map_view(const RsuConfig& config);
+
 /// The configuration of the scenario's RSU number `rsu`. The scenario is resolved: every field is present and valid.
 /// Fails if there is no such RSU.
 Expected<RsuConfig> rsu_config(const scenario::Scenario& scenario, std::uint32_t rsu);

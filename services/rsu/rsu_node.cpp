@@ -72,7 +72,7 @@ RsuNode::RsuNode(RsuConfig config, std::unique_ptr<RsuAlgorithm> algorithm)
       sensed_(config_.road),
       map_(map_of(config_)) {
   LUKOU_EXPECT(algorithm_ != nullptr);
-  view_.map = {.speed_limit_mps = config_.speed_limit_mps, .approach_length_m = config_.road.approach_m};
+  view_.map = map_view(config_);
   view_.actuation = config_.actuation;
   spat_.node = kNode;
   guidance_.rsu = config_.station_id;

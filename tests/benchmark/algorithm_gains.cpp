@@ -37,7 +37,7 @@ class Comparison {
     std::printf("\n%.0f veh/h, equipped ratio %.1f\n\n", flow_veh_per_h_, equipped_ratio);
     std::printf("| algorithm | stop time s | delay s | stops per vehicle | mean abs. acceleration m/s2 |\n");
     std::printf("|---|---|---|---|---|\n| `none` |");
-    for (const char* measure : kMeasures) cell(values(without_, measure), "%.3f ± %.3f");
+    for (const char* measure : kMeasures) print_cell(values(without_, measure), "%.3f ± %.3f");
     std::printf("\n");
     for (const char* algorithm : kAlgorithms) {
       const std::vector<json> with = runs_of(algorithm, equipped_ratio);
@@ -46,7 +46,7 @@ class Comparison {
         std::vector<double> changes = values(with, measure);
         const std::vector<double> before = values(without_, measure);
         for (std::size_t i = 0; i < changes.size(); ++i) changes[i] -= before[i];
-        cell(changes, "%+.3f ± %.3f");
+        print_cell(changes, "%+.3f ± %.3f");
       }
       std::printf("\n");
       std::fflush(stdout);
@@ -73,12 +73,6 @@ class Comparison {
     std::vector<double> found;
     for (const json& run : runs) found.push_back(run.at(measure).get<double>());
     return found;
-  }
-  static void cell(const std::vector<double>& values, const char* format) {
-    const Estimate found = estimate(values);
-    char text[64];
-    std::snprintf(text, sizeof text, format, found.mean, found.half_width);
-    std::printf(" %s |", text);
   }
 
   int seeds_;
@@ -108,11 +102,7 @@ std::vector<std::string> settings_argument(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int seeds = static_cast<int>(number_argument(argc, argv, "seeds", 10.0));
-  if (seeds < 1) {
-    std::fprintf(stderr, "--seeds: needs at least 1\n");
-    return 2;
-  }
+  const int seeds = seeds_argument(argc, argv);
   std::printf("`none`: mean ± half width of the 95 %% interval over %d seeds; the others: what they change, paired.\n",
               seeds);
   double accidents = 0.0;

@@ -42,6 +42,13 @@ Estimate estimate(const std::vector<double>& values) {
   return result;
 }
 
+void print_cell(const std::vector<double>& values, const char* format) {
+  const Estimate found = estimate(values);
+  char text[64];
+  std::snprintf(text, sizeof text, format, found.mean, found.half_width);
+  std::printf(" %s |", text);
+}
+
 Spread spread(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;
@@ -63,6 +70,13 @@ double number_argument(int argc, char** argv, const std::string& name, double ot
     return value;
   }
   return otherwise;
+}
+
+int seeds_argument(int argc, char** argv, int otherwise) {
+  const int seeds = static_cast<int>(number_argument(argc, argv, "seeds", otherwise));
+  if (seeds >= 1) return seeds;
+  std::fprintf(stderr, "--seeds: needs at least 1\n");
+  std::exit(2);
 }
 
 bool flag_argument(int argc, char** argv, const std::string& name) {

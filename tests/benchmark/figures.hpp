@@ -35,6 +35,9 @@ struct Estimate {
 /// Of at least one value.
 Estimate estimate(const std::vector<double>& values);
 
+/// Prints mean and half width as a cell of a table; `format` takes both.
+void print_cell(const std::vector<double>& values, const char* format);
+
 /// Middle value, or the mean of the two in the middle, and the extremes; of at least one value.
 struct Spread {
   double median = 0.0;
@@ -45,6 +48,8 @@ Spread spread(std::vector<double> values);
 
 /// Value of `--name N` among the arguments of main(), or `otherwise`. Exits with code 2 if N is missing or no number.
 double number_argument(int argc, char** argv, const std::string& name, double otherwise);
+/// Value of `--seeds N`, or `otherwise`. Exits with code 2 if it is below 1.
+int seeds_argument(int argc, char** argv, int otherwise = 10);
 /// True if `--name` is among the arguments.
 bool flag_argument(int argc, char** argv, const std::string& name);
 

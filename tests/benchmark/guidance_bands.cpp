@@ -92,11 +92,7 @@ void print(const Summaries& summaries) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int seeds = static_cast<int>(number_argument(argc, argv, "seeds", 10.0));
-  if (seeds < 1) {
-    std::fprintf(stderr, "--seeds: needs at least 1\n");
-    return 2;
-  }
+  const int seeds = seeds_argument(argc, argv);
   const Summaries summaries(seeds);
   print(summaries);
 

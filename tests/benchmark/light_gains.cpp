@@ -164,13 +164,6 @@ std::vector<Control> controls(const FixedPlan& best) {
   return all;
 }
 
-void cell(const std::vector<double>& values, const char* format) {
-  const Estimate found = estimate(values);
-  char text[64];
-  std::snprintf(text, sizeof text, format, found.mean, found.half_width);
-  std::printf(" %s |", text);
-}
-
 std::vector<double> column(const std::vector<Outcome>& runs, double Outcome::* member) {
   std::vector<double> values;
   for (const Outcome& run : runs) values.push_back(run.*member);
@@ -180,11 +173,7 @@ std::vector<double> column(const std::vector<Outcome>& runs, double Outcome::* m
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int seeds = static_cast<int>(number_argument(argc, argv, "seeds", 10.0));
-  if (seeds < 1) {
-    std::fprintf(stderr, "--seeds: needs at least 1\n");
-    return 2;
-  }
+  const int seeds = seeds_argument(argc, argv);
   const FixedPlan best = flag_argument(argc, argv, "no-search") ? kFoundBest : best_plan();
   std::printf("Best fixed plan: cycle %d s, %d s green for west and east, %d s for south and north.\n", best.cycle_s(),
               best.west_east_s, best.south_north_s);
@@ -202,11 +191,11 @@ int main(int argc, char** argv) {
     std::vector<double> changes;
     for (std::size_t i = 0; i < delays_s.size(); ++i) changes.push_back(100.0 * (delays_s[i] / even_s[i] - 1.0));
     std::printf("| %s |", control.name.c_str());
-    cell(delays_s, "%.2f ± %.2f");
-    cell(changes, "%+.1f ± %.1f");
-    cell(column(runs, &Outcome::west_east_s), "%.2f ± %.2f");
-    cell(column(runs, &Outcome::south_north_s), "%.2f ± %.2f");
-    cell(column(runs, &Outcome::stops), "%.3f ± %.3f");
+    print_cell(delays_s, "%.2f ± %.2f");
+    print_cell(changes, "%+.1f ± %.1f");
+    print_cell(column(runs, &Outcome::west_east_s), "%.2f ± %.2f");
+    print_cell(column(runs, &Outcome::south_north_s), "%.2f ± %.2f");
+    print_cell(column(runs, &Outcome::stops), "%.3f ± %.3f");
     std::printf("\n");
     std::fflush(stdout);
     for (const double accident : column(runs, &Outcome::accidents)) accidents += accident;

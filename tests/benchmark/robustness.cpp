@@ -97,11 +97,7 @@ class Table {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int seeds = static_cast<int>(number_argument(argc, argv, "seeds", 3.0));
-  if (seeds < 1) {
-    std::fprintf(stderr, "--seeds: needs at least 1\n");
-    return 2;
-  }
+  const int seeds = seeds_argument(argc, argv, 3);
   Table table(seeds);
   table.row("no guidance", {}, 0.0);
   for (const double lifetime_s : kLifetimes_s) {

@@ -104,9 +104,7 @@ int run_with(int argc, char** argv, const MakeAlgorithm& make) {
 }  // namespace
 
 RsuSetup setup_of(const RsuConfig& config) {
-  return {.index = config.rsu,
-          .map = {.speed_limit_mps = config.speed_limit_mps, .approach_length_m = config.road.approach_m},
-          .acceleration_max_mps2 = config.acceleration_max_mps2};
+  return {.index = config.rsu, .map = map_view(config), .acceleration_max_mps2 = config.acceleration_max_mps2};
 }
 
 int run_rsu(int argc, char** argv, const MakeAlgorithm& make) {

@@ -31,11 +31,7 @@ void advise_all(RsuAnswer& answer, const py::array_t<std::uint64_t, py::array::f
 
 LaneSet lanes_named(const std::vector<std::string>& names) {
   LaneSet lanes;
-  for (const std::string& lane_name : names) {
-    const auto lane = lane_named(lane_name);
-    if (!lane) throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
-    lanes.insert(*lane);
-  }
+  for (const std::string& lane_name : names) lanes.insert(lane_called(lane_name));
   return lanes;
 }
 
@@ -60,9 +56,7 @@ void advise_speed(RsuAnswer& answer, std::uint64_t car, double speed_mps, double
 }
 
 void lane_speed(RsuAnswer& answer, const std::string& lane_name, double speed_mps, double lifetime_s) {
-  const auto lane = lane_named(lane_name);
-  if (!lane) throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
-  answer.lane_speed(*lane, speed_mps, step_at_or_after(lifetime_s));
+  answer.lane_speed(lane_called(lane_name), speed_mps, step_at_or_after(lifetime_s));
 }
 
 std::optional<Segments> segments_of(const RsuAnswer::Item& item) {
@@ -90,6 +84,12 @@ std::optional<Binding> binding_of(const RsuAnswer::Item& item) {
 }
 
 }  // namespace
+
+Lane lane_called(const std::string& lane_name) {
+  const auto lane = lane_named(lane_name);
+  if (!lane) throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
+  return *lane;
+}
 
 std::vector<std::string> names_of(LaneSet lanes) {
   std::vector<std::string> names;

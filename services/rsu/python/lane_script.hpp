@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/rsu/python/answer_binding.hpp"
 #include "services/rsu/sdk/rsu_view.hpp"
 
 namespace lukou::python {
@@ -32,17 +33,15 @@ class ScriptedView {
     view_.time_s = time_s(now);
     view_.map = map;
     for (auto& [lane_name, script] : lanes_) {
-      const auto lane = lane_named(lane_name);
-      if (!lane)
-        throw std::invalid_argument("there is no lane `" + lane_name + "`: WL WC WR SL SC SR EL EC ER NL NC NR");
-      for (HeardCar& car : script.cars) car.lane = *lane;
-      for (SensedCar& car : script.sensed) car.lane = *lane;
-      view_.lanes[index(*lane)] = {.cars = script.cars,
-                                   .sensed = script.sensed,
-                                   .last_crossing_s = {},
-                                   .aspect = script.aspect,
-                                   .aspect_since = script.aspect_since,
-                                   .changes = script.changes};
+      const Lane lane = lane_called(lane_name);
+      for (HeardCar& car : script.cars) car.lane = lane;
+      for (SensedCar& car : script.sensed) car.lane = lane;
+      view_.lanes[index(lane)] = {.cars = script.cars,
+                                  .sensed = script.sensed,
+                                  .last_crossing_s = {},
+                                  .aspect = script.aspect,
+                                  .aspect_since = script.aspect_since,
+                                  .changes = script.changes};
     }
   }
   [[nodiscard]] const RsuView& view() const { return view_; }

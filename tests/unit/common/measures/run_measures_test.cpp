@@ -5,95 +5,15 @@
 #include <tuple>
 
 #include "common/measures/free_motion.hpp"
+#include "tests/unit/common/measures/measures_script.hpp"
 
 namespace lukou {
 namespace {
 
+using test::kWestCenter;
+using test::Script;
+
 constexpr double kKmh = 1.0 / 3.6;
-constexpr std::uint8_t kWestCenter = 1;
-
-/// Writes batches by hand, car by car.
-class Script {
- public:
-  explicit Script(double warmup_s = 0.0) : measures_(parameters(warmup_s)) {}
-
-  void enter(std::uint32_t vehicle, bool equipped = false, double speed_mps = 15.0) {
-    batch_.entered_vehicle.push_back(vehicle);
-    batch_.entered_lane.push_back(kWestCenter);
-    batch_.entered_equipped.push_back(equipped ? 1 : 0);
-    batch_.entered_speed_mps.push_back(speed_mps);
-    batch_.entered_desired_speed_mps.push_back(15.0);
-  }
-  void drive(std::uint32_t vehicle, double position_m, double speed_mps, CarState state = CarState::kIn,
-             double acceleration_mps2 = 0.0) {
-    batch_.vehicle.push_back(vehicle);
-    batch_.lane.push_back(kWestCenter);
-    batch_.state.push_back(static_cast<std::uint8_t>(state));
-    batch_.position_m.push_back(position_m);
-    batch_.speed_mps.push_back(speed_mps);
-    batch_.acceleration_mps2.push_back(acceleration_mps2);
-    batch_.guidance.push_back(static_cast<std::uint8_t>(GuidanceState::kNotEquipped));
-    batch_.bound_by.push_back(static_cast<std::uint8_t>(BoundBy::kLight));
-    batch_.missed.push_back(kNothingMissed);
-  }
-  /// A car with a unit.
-  void drive_guided(std::uint32_t vehicle, double position_m, double speed_mps, GuidanceState guidance,
-                    BoundBy bound_by = BoundBy::kLight, std::uint8_t missed = kNothingMissed) {
-    drive(vehicle, position_m, speed_mps);
-    batch_.guidance.back() = static_cast<std::uint8_t>(guidance);
-    batch_.bound_by.back() = static_cast<std::uint8_t>(bound_by);
-    batch_.missed.back() = missed;
-  }
-  void cross(std::uint32_t vehicle, double at_s, Aspect aspect = Aspect::kGreen) {
-    batch_.crossed_vehicle.push_back(vehicle);
-    batch_.crossed_time_s.push_back(at_s);
-    batch_.crossed_aspect.push_back(static_cast<std::uint8_t>(aspect));
-    batch_.crossed_committed.push_back(0);
-  }
-  void leave(std::uint32_t vehicle, double at_s) {
-    batch_.left_vehicle.push_back(vehicle);
-    batch_.left_time_s.push_back(at_s);
-  }
-  void fate(AdviceFate fate, bool again = false, std::uint32_t vehicle = 0, Step issued = 0) {
-    batch_.fate_vehicle.push_back(vehicle);
-    batch_.fate_issued.push_back(issued);
-    batch_.fate.push_back(static_cast<std::uint8_t>(fate));
-    batch_.fate_again.push_back(again ? 1 : 0);
-    batch_.fate_issued.push_back(0);
-    batch_.fate_kind.push_back(static_cast<std::uint8_t>(AdviceKind::kAcceleration));
-  }
-  void counts(std::uint32_t arrived, std::uint32_t arrived_equipped, std::uint32_t waiting) {
-    batch_.arrived = {arrived, 0, 0, 0};
-    batch_.arrived_equipped = {arrived_equipped, 0, 0, 0};
-    batch_.waiting = {waiting, 0, 0, 0};
-    batch_.waiting_equipped = {0, 0, 0, 0};
-  }
-  /// Hands the step in.
-  void next() {
-    batch_.step = step_++;
-    measures_.add(batch_);
-    for (const FinishedCar& car : measures_.finished()) finished_.push_back(car);
-    for (const FinishedStop& stop : measures_.finished_stops()) stops_.push_back(stop);
-    batch_.clear();
-  }
-  [[nodiscard]] const RunMeasures& measures() const { return measures_; }
-  [[nodiscard]] const std::vector<FinishedCar>& finished() const { return finished_; }
-  [[nodiscard]] const std::vector<FinishedStop>& stops() const { return stops_; }
-  [[nodiscard]] Step step() const { return step_; }
-
- private:
-  static MeasureParameters parameters(double warmup_s) {
-    MeasureParameters measure;
-    measure.warmup_s = warmup_s;
-    return measure;
-  }
-  RunMeasures measures_;
-  TrafficBatch batch_;
-  std::vector<FinishedCar> finished_;
-  std::vector<FinishedStop> stops_;
-  Step step_ = 0;
-};
-
 TEST(RunMeasures, CountsAStopOnceUntilTheCarIsFastAgain) {
   Script script;
   script.enter(0);
@@ -397,71 +317,6 @@ TEST(RunMeasures, CountsEveryStopUnderOneCause) {
   EXPECT_EQ(of(StopCause::kQueueAhead), 3U);
   EXPECT_EQ(of(StopCause::kAdvised), 3U);
   EXPECT_EQ(script.stops().size() + script.measures().lasting_stops().size(), 9U);
-}
-
-TEST(RunMeasuresNow, CountsFromTheFirstStepWhateverTheWarmUp) {
-  Script script(1000.0);
-  script.counts(5, 3, 1);
-  script.enter(0, true);
-  script.enter(4);
-  script.drive(0, 20.0, 15.0);
-  script.drive(4, 5.0, 15.0);
-  script.next();
-  for (int i = 0; i < 3; ++i) {
-    script.counts(5, 3, 1);
-    script.drive(0, 20.0, 0.0);
-    script.drive(4, 5.0, 15.0);
-    script.next();
-  }
-  const RunNow now = script.measures().now();
-  EXPECT_EQ(now.all.arrived, 5U);
-  EXPECT_EQ(now.all.waiting, 1U);
-  EXPECT_EQ(now.all.in_system, 2U);
-  EXPECT_EQ(now.equipped.arrived, 3U);
-  EXPECT_EQ(now.equipped.standing, 1U);
-  EXPECT_EQ(now.unequipped.standing, 0U);
-  EXPECT_EQ(now.all.stops, 1U);
-  EXPECT_EQ(now.all.standing_steps, 3U);
-  EXPECT_EQ(now.all.stops_per_vehicle, 0.5) << "one stop, two cars on the road";
-  EXPECT_EQ(now.equipped.mean_stop_time_s, 0.3);
-  EXPECT_EQ(now.unequipped.mean_stop_time_s, 0.0);
-  EXPECT_FALSE(now.all.mean_delay_s.has_value()) << "nobody has left";
-  EXPECT_EQ(script.measures().now(0).standing_steps, 3U);
-  EXPECT_EQ(script.measures().now(4).standing_steps, 0U);
-}
-
-TEST(RunMeasuresNow, KnowsTheThroughputOfTheLastMinute) {
-  Script script;
-  script.enter(0);
-  script.enter(4, true);
-  script.drive(0, 499.0, 15.0);
-  script.drive(4, 490.0, 15.0);
-  script.next();
-  script.cross(0, 0.1);
-  script.cross(4, 0.1);
-  script.next();  // step 1: two crossings in 0.1 s
-  EXPECT_EQ(script.measures().now().all.throughput_veh_per_h, 72000.0);
-  while (script.step() <= 600) script.next();
-  // Two in the whole first minute, steps 1 to 600.
-  EXPECT_EQ(script.measures().now().all.throughput_veh_per_h, 120.0);
-  EXPECT_EQ(script.measures().now().equipped.throughput_veh_per_h, 60.0);
-  script.next();  // step 601: step 1 is a minute ago
-  EXPECT_EQ(script.measures().now().all.throughput_veh_per_h, 0.0);
-}
-
-TEST(RunMeasuresNow, TellsTheNewestAdviceThatReachedACar) {
-  Script script;
-  script.enter(0, true);
-  script.drive(0, 10.0, 15.0);
-  script.next();
-  EXPECT_EQ(script.measures().now(0).newest_advice, -1);
-  script.drive(0, 11.0, 15.0);
-  script.fate(AdviceFate::kApplied, false, 0, 7);
-  script.fate(AdviceFate::kStale, false, 0, 5);
-  script.fate(AdviceFate::kLostRandom, false, 0, 9);
-  script.fate(AdviceFate::kApplied, false, 4, 8);
-  script.next();
-  EXPECT_EQ(script.measures().now(0).newest_advice, 7) << "one was older, one lost, one for a car that is not there";
 }
 
 TEST(RunMeasures, AddUpFuelAndKeepStandingApart) {
