@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <unordered_map>
 #include <vector>
 
 #include "common/bus/batches.hpp"
@@ -36,7 +35,7 @@ class UplinkWatch {
   void take(std::uint32_t vehicle, Step sent);
 
   Step all_heard_ = -1;  ///< the newest step whose messages an RSU heard all, the radio being ideal
-  std::unordered_map<std::uint32_t, Record> cars_;
+  std::map<std::uint32_t, Record> cars_;
   std::map<Step, std::vector<UnderWay>> due_;  ///< heard then
 };
 
