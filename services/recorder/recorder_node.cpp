@@ -62,8 +62,17 @@ Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, 
                                                       .requests = config.actuated,
                                                       .safety = config.record_safety});
   if (!events) return events.error();
-  return RecorderNode(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
-                      std::move(events).value());
+  RecorderNode node(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
+                    std::move(events).value());
+  if (config.log == run_log::Level::kNone) return node;
+  auto log = run_log::RunLogWriter::create(node.folder_, {.level = config.log,
+                                                          .lukou_version = std::string(version()),
+                                                          .scenario = scenario::text(scenario),
+                                                          .scenario_hash = node.scenario_hash_,
+                                                          .steps_planned = config.end});
+  if (!log) return log.error();
+  node.run_log_.emplace(std::move(log).value());
+  return node;
 }
 
 RecorderNode::RecorderNode(const RecorderConfig& config, std::string scenario_hash, std::filesystem::path folder,
@@ -80,6 +89,7 @@ RecorderNode::RecorderNode(const RecorderConfig& config, std::string scenario_ha
 
 void RecorderNode::add(const std::vector<Directive>& directives) {
   log_.sets.insert(log_.sets.end(), directives.begin(), directives.end());
+  due_ = directives;
 }
 
 Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_signal) {
@@ -99,6 +109,10 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
     return Error{"topic lukou/traffic", "the reception report of step " + std::to_string(traffic.step) + " is broken"};
   }
   step_ = traffic.step;
+  if (run_log_) {
+    if (auto done = run_log_->add(due_, new_signal, traffic); !done) return done;
+    due_.clear();
+  }
   measures_.add(traffic);
   uplink_.add(traffic);
   note_hearing(traffic);
@@ -219,6 +233,9 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   if (auto done = radio_.sync(); !done) return done;
   if (auto done = events_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
+  if (run_log_) {
+    if (auto done = run_log_->close(); !done) return done;
+  }
   if (config_.actuated || requests_.figures().asked > 0) extras.requests = requests_.figures();
   if (std::ranges::find(config_.rsu_measured, true) != config_.rsu_measured.end()) {
     extras.deadline_misses = deadline_misses_;
@@ -238,6 +255,7 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
                              .files = tables_.entries()};
   for (results::FileEntry& entry : events_.entries()) manifest.files.push_back(std::move(entry));
   if (auto entry = radio_.entry()) manifest.files.push_back(*entry);
+  if (run_log_) manifest.files.push_back({run_log::kRunLog, run_log_->sha256(), std::nullopt});
   manifest.files.push_back({"directives.textproto", sha256_hex(directives), std::nullopt});
   manifest.files.push_back({"scenario.textproto", scenario_hash_, std::nullopt});
   manifest.files.push_back({"summary.json", sha256_hex(summary), std::nullopt});

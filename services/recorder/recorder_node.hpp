@@ -16,6 +16,7 @@
 #include "common/results/event_tables.hpp"
 #include "common/results/radio_table.hpp"
 #include "common/results/tables.hpp"
+#include "common/run_log/run_log_writer.hpp"
 #include "common/scenario/directive_log.hpp"
 #include "services/recorder/measure_config.hpp"
 #include "services/recorder/view_columns.hpp"
@@ -74,6 +75,8 @@ class RecorderNode {
   SignalPromise promise_;
   HeadForecast heads_;
   scenario::DirectiveLog log_;
+  std::optional<run_log::RunLogWriter> run_log_;  ///< empty: none is asked for
+  std::vector<Directive> due_;                    ///< directives of the step that comes next
   std::uint64_t deadline_misses_ = 0;
   std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last
   TrafficBatch picture_;                    ///< the newest step
