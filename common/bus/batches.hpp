@@ -6,6 +6,7 @@
 
 #include "common/core/step.hpp"
 #include "common/messages/frames.hpp"
+#include "common/radio/frame_fates.hpp"
 #include "common/radio/reception_report.hpp"
 
 // What crosses the bus in every step, as plain structures of arrays; idl/bus.idl is the same contract for DDS.
@@ -54,6 +55,7 @@ struct RoadsideBatch {
   ReceptionReport reception;            ///< uplink; empty under the ideal radio
   std::uint32_t requests_refused = 0;   ///< requests for greens that nobody takes: the plan is fixed
   std::uint32_t computing_ms = 0;       ///< delays whatever the algorithm answered in this step; 0 if its time is free
+  FrameFates uplink;                    ///< of each frame in the air of this step; empty under the ideal radio
 };
 
 /// RSU to signal controller: the greens that it asks for at t_step. Only in a run with signals.actuation.
@@ -214,6 +216,11 @@ struct TrafficBatch {
   std::vector<double> fate_speed_mps;   ///< of the kinds that ask for a speed; else NaN
 
   std::vector<std::uint32_t> computing_ms;  ///< per RSU: what delayed its answer of step - 1; 0 if it is silent
+
+  // What became of the frames that cars sent at t_(step-1), RSU by RSU as each told it; none under the ideal radio.
+  std::vector<std::uint32_t> uplink_vehicle;
+  std::vector<std::uint32_t> uplink_rsu;
+  FrameFates uplink;
 
   void clear();
 };

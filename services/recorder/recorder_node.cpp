@@ -93,17 +93,20 @@ Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_
   }
   requests_.add_fixed_plan(traffic.requests_refused);
   promise_.forget_before(traffic.step);
+  const bool uplink_whole = traffic.uplink.well_formed() && traffic.uplink_vehicle.size() == traffic.uplink.size() &&
+                            traffic.uplink_rsu.size() == traffic.uplink.size();
+  if (!traffic.reception.well_formed() || !uplink_whole) {
+    return Error{"topic lukou/traffic", "the reception report of step " + std::to_string(traffic.step) + " is broken"};
+  }
   step_ = traffic.step;
   measures_.add(traffic);
+  uplink_.add(traffic);
   note_hearing(traffic);
   note_computing(traffic);
   for (const FinishedCar& car : measures_.finished()) tables_.add_car(car);
   add_events(traffic);
   if (step_ > 0) add_rows();
   look_for_anomaly(traffic);
-  if (!traffic.reception.well_formed()) {
-    return Error{"topic lukou/traffic", "the reception report of step " + std::to_string(step_) + " is broken"};
-  }
   reception_.add(traffic.reception);
   if (step_ > 0 && step_ % kStepsPerSecond == 0) {
     if (auto done = add_radio_rows(); !done) return done;
@@ -193,7 +196,7 @@ void RecorderNode::look_for_anomaly(const TrafficBatch& traffic) {
 
 void RecorderNode::fill(View& view) const {
   view.step = step_;
-  fill_cars(view, picture_, measures_);
+  fill_cars(view, picture_, measures_, uplink_);
   fill_figures(view, measures_);
   fill_radio(view, last_second_);
   heads_.fill(view, promise_);

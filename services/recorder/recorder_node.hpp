@@ -64,6 +64,7 @@ class RecorderNode {
   results::EventTables events_;
   results::RadioTable radio_;
   RunMeasures measures_;
+  UplinkWatch uplink_;
   std::optional<SafetyMeasures> safety_;  ///< empty: not recorded
   AdviceLedger ledger_;
   ReceptionMeasures reception_;
