@@ -86,6 +86,28 @@ Step RunLogReader::last_step() const {
   return chunks.empty() ? -1 : step_at(chunks.back().last_ns);
 }
 
+Expected<std::vector<Directive>> RunLogReader::directives() const {
+  std::vector<Directive> found;
+  const auto& chunks = file_.index().chunks;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    // Of a chunk whose indexes a death has torn off nothing is known.
+    const auto& held = chunks[i].message_indexes;
+    if (!held.empty() && !held.contains(static_cast<std::uint16_t>(Channel::kDirective))) continue;
+    const auto messages = file_.chunk(i);
+    if (!messages) return messages.error();
+    std::string_view rest = messages.value();
+    while (const auto message = McapReader::take_message(rest)) {
+      if (message->channel != static_cast<std::uint16_t>(Channel::kDirective)) continue;
+      record::Directive directive;
+      if (!directive.ParseFromArray(message->data.data(), static_cast<int>(message->data.size()))) {
+        return Error{std::string(kRunLog) + ": /directive", "a message is broken"};
+      }
+      found.push_back({directive.step(), directive.set()});
+    }
+  }
+  return found;
+}
+
 void RunLogReader::seek(Step step) {
   const auto& chunks = file_.index().chunks;
   const auto holds =
@@ -104,7 +126,7 @@ Expected<Done> RunLogReader::load(std::size_t chunk) {
   return Done{};
 }
 
-Expected<const LoggedStep*> RunLogReader::next() {
+Expected<LoggedStep*> RunLogReader::next() {
   step_.step = -1;
   step_.cars = false;
   step_.directives.clear();
@@ -125,9 +147,9 @@ Expected<const LoggedStep*> RunLogReader::next() {
     }
     message_.reset();
   }
-  if (step_.step < 0) return static_cast<const LoggedStep*>(nullptr);
+  if (step_.step < 0) return static_cast<LoggedStep*>(nullptr);
   step_.traffic.step = step_.step;
-  return static_cast<const LoggedStep*>(&step_);
+  return &step_;
 }
 
 Expected<Done> RunLogReader::take(const McapReader::Message& message) {

@@ -38,10 +38,14 @@ class RunLogReader {
   /// The last step that is there; -1: none.
   [[nodiscard]] Step last_step() const;
 
+  /// The operator's changes, all of the run: only chunks that hold some are read.
+  Expected<std::vector<Directive>> directives() const;
+
   /// The next step that next() gives. Steps before the first come as the first, those after the last as none.
   void seek(Step step);
-  /// The next step, or nothing at the end. Errors: a chunk that is broken, with its place.
-  Expected<const LoggedStep*> next();
+  /// The next step, or null at the end; it may be moved or swapped from. Errors: a chunk that is broken, with its
+  /// place.
+  Expected<LoggedStep*> next();
 
  private:
   struct Decoder;
