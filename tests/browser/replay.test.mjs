@@ -27,7 +27,9 @@ after(async () => {
 
 /** A table of the run as rows of numbers and words by column. */
 function table(name) {
-  const [head, ...lines] = readFileSync(join(folder, 'run', name), 'utf8').trimEnd().split('\n');
+  const [head, ...lines] = readFileSync(join(folder, 'run', name), 'utf8')
+    .trimEnd()
+    .split('\n');
   const columns = head.split(',');
   return lines.map((line) => Object.fromEntries(line.split(',').map((cell, i) => [columns[i], cell])));
 }
