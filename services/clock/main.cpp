@@ -160,7 +160,7 @@ int run(int argc, char** argv) {
   auto settings = settings_of(options.value(), scenario.value());
   if (!settings) return process::report_start(settings.error(), process::kExitUsage);
 
-  const auto participant = bus::Participant::join(options.value().address, process::new_incarnation());
+  const auto participant = bus::Participant::join(options.value().address, kClockRole, process::new_incarnation());
   if (!participant) return process::report_start(participant.error(), process::kExitAborted);
   settings.value().incarnation = participant.value()->self();
   ClockCore core(settings.value());
