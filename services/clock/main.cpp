@@ -27,6 +27,8 @@ class ClockOnTheBus {
     up_.take([this](Up& message, const bus::SampleInfo& info) {
       if (info.alive && message.kind == Up::Kind::kRequest) {
         requests_.push_back(message);
+      } else if (info.alive && message.kind == Up::Kind::kJoin && !control_.matched().contains(message.incarnation)) {
+        return;  // the Welcome would not reach it: it asks again
       } else if (info.alive) {
         core_.receive(process::wall_s(), message);
       } else {
