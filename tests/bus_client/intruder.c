@@ -3,9 +3,9 @@
  *
  *   intruder DOMAIN SECONDS read:TOPIC ... write:TOPIC ...     topics without their "lukou/"
  *
- * A line each: "read traffic created 1 matched 1 samples 42", "write up created 1 matched 1 written 20"; matched: the most at
- * once. It asks the clock to stop (up), turns all lights green (signal) and forges empty batches. Alone it prints
- * "participant refused". */
+ * A line each: "read traffic created 1 matched 1 samples 42", "write up created 1 matched 1 written 20"; matched: the
+ * most at once. It asks the clock to stop (up), turns all lights green (signal) and forges empty batches. Alone it
+ * prints "participant refused". */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,25 +16,35 @@
 
 #include "bus.h"
 
-enum { MOST = 16, UP_REQUEST = 6, GREEN = 3, LANES = 12, PROMISED = 11 };
+enum { SELF = 666, MOST = 16, UP_REQUEST = 6, GREEN = 3, LANES = 12, PROMISED = 11 };
 
 static uint8_t all_green[LANES * PROMISED];
-static lukou_bus_Up stop = {.incarnation = 666, .kind = UP_REQUEST, .role = "observer", .protocol = 1, .number = 1,
-                            .text = "stop", .hash = ""};
-static lukou_bus_Signal green = {.producer = 666, .epoch = 1, .heads = {sizeof all_green, sizeof all_green, all_green, false}};
-static lukou_bus_Traffic traffic = {.producer = 666, .epoch = 1};
-static lukou_bus_Air air = {.producer = 666, .epoch = 1};
-static lukou_bus_Roadside roadside = {.producer = 666, .epoch = 1};
-static lukou_bus_View view = {.producer = 666};
+static lukou_bus_Up stop = {.incarnation = SELF,
+                            .kind = UP_REQUEST,
+                            .role = "observer",
+                            .protocol = 1,
+                            .number = 1,
+                            .text = "stop",
+                            .hash = ""};
+static lukou_bus_Signal green = {
+    .producer = SELF, .epoch = 1, .heads = {sizeof all_green, sizeof all_green, all_green, false}};
+static lukou_bus_Traffic traffic = {.producer = SELF, .epoch = 1};
+static lukou_bus_Air air = {.producer = SELF, .epoch = 1};
+static lukou_bus_Roadside roadside = {.producer = SELF, .epoch = 1};
+static lukou_bus_View view = {.producer = SELF};
 
 static const struct kind {
   const char* name;
   const dds_topic_descriptor_t* type;
   void* forged; /* NULL: it only reads it */
-} kinds[] = {{"up", &lukou_bus_Up_desc, &stop},          {"signal", &lukou_bus_Signal_desc, &green},
-             {"traffic", &lukou_bus_Traffic_desc, &traffic}, {"air", &lukou_bus_Air_desc, &air},
-             {"roadside", &lukou_bus_Roadside_desc, &roadside}, {"view", &lukou_bus_View_desc, &view},
-             {"control", &lukou_bus_Control_desc, NULL}, {"run_state", &lukou_bus_RunState_desc, NULL}};
+} kinds[] = {{"up", &lukou_bus_Up_desc, &stop},
+             {"signal", &lukou_bus_Signal_desc, &green},
+             {"traffic", &lukou_bus_Traffic_desc, &traffic},
+             {"air", &lukou_bus_Air_desc, &air},
+             {"roadside", &lukou_bus_Roadside_desc, &roadside},
+             {"view", &lukou_bus_View_desc, &view},
+             {"control", &lukou_bus_Control_desc, NULL},
+             {"run_state", &lukou_bus_RunState_desc, NULL}};
 
 struct end {
   const struct kind* kind;
@@ -64,9 +74,12 @@ static void add(dds_entity_t participant, const char* word) {
   /* As the readers and writers that it wants to be taken for; a best-effort reader is no burden to anybody. */
   dds_qset_reliability(qos, e->writes ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(10));
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+  const uint64_t self = SELF;
+  dds_qset_userdata(qos, &self, sizeof self);             /* or the clock does not know whom to answer */
+  dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT); /* he is after the others */
   if (e->writes) dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
   const dds_entity_t topic = dds_create_topic(participant, e->kind->type, topic_name, NULL, NULL);
-  e->entity = topic < 0      ? topic
+  e->entity = topic < 0   ? topic
               : e->writes ? dds_create_writer(participant, topic, qos, NULL)
                           : dds_create_reader(participant, topic, qos, NULL);
   dds_delete_qos(qos);

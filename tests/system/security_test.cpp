@@ -110,7 +110,8 @@ TEST_F(SecuredRun, LosesAnRsuAsAnyOther) {
                    "--out", in_folder("r")});
   for (int i = 0; i < 200 && !processes_of(id).contains("lukou-rsu"); ++i) usleep(20'000);
   for (int i = 0; i < 100; ++i) {
-    if (lukou({"ctl", id, "status", "--identity", keys() + "/observer"}).out.find(": running") != std::string::npos) break;
+    if (lukou({"ctl", id, "status", "--identity", keys() + "/observer"}).out.find(": running") != std::string::npos)
+      break;
   }
   kill(processes_of(id).at("lukou-rsu"), SIGKILL);
   EXPECT_EQ(secured.wait(), 3);
