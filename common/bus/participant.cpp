@@ -20,6 +20,10 @@ namespace lukou::bus {
 namespace {
 
 constexpr std::int32_t kHistorySteps = 512;
+/// Silence that means that a process is gone. Cyclone gives a sign of life when 80 % of it are over; between hosts that
+/// may be lost, and said again.
+constexpr dds_duration_t kSilence = DDS_SECS(2);
+constexpr dds_duration_t kSilenceOfHosts = DDS_SECS(10);
 
 std::string reason(dds_return_t code) { return dds_strretcode(-code); }
 
@@ -37,7 +41,7 @@ struct QosDeleter {
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
-Qos qos_of(Service service, bool writer, Incarnation self) {
+Qos qos_of(Service service, bool writer, Incarnation self, dds_duration_t silence) {
   Qos qos(dds_create_qos());
   const bool reliable = service != Service::kPicture;
   dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(100));
@@ -52,7 +56,7 @@ Qos qos_of(Service service, bool writer, Incarnation self) {
   if (writer) {
     // A process that dies must not look like one that says good-bye.
     dds_qset_writer_data_lifecycle(qos.get(), false);
-    if (service == Service::kStream) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
+    if (service == Service::kStream) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, silence);
   }
   dds_qset_userdata(qos.get(), &self, sizeof self);
   return qos;
@@ -179,6 +183,7 @@ struct Participant::Entities {
   std::shared_ptr<Domain> domain;
   dds_entity_t participant = 0;
   dds_entity_t waitset = 0;
+  dds_duration_t silence = kSilence;
   std::function<bool()> keep_writing = [] { return true; };
 
   Entities() = default;
@@ -203,6 +208,7 @@ Expected<std::unique_ptr<Participant>> Participant::join(const Address& address,
   }
   auto entities = std::make_unique<Entities>();
   entities->self = self;
+  if (!address.peers.empty()) entities->silence = kSilenceOfHosts;
   auto domain = Domain::of(address, identity ? &*identity : nullptr);
   if (!domain) return domain.error();
   entities->domain = std::move(domain).value();
@@ -248,7 +254,7 @@ dds_entity_t topic_of(Participant::Entities& entities) {
 template <class Batch>
 Writer<Batch>::Writer(Participant& participant) : participant_(participant) {
   auto& entities = participant_.entities();
-  const Qos qos = qos_of(TopicOf<Batch>::kService, true, entities.self);
+  const Qos qos = qos_of(TopicOf<Batch>::kService, true, entities.self, entities.silence);
   entity_ = made(dds_create_writer(entities.participant, topic_of<Batch>(entities), qos.get(), nullptr),
                  TopicOf<Batch>::kName);
 }
@@ -280,7 +286,7 @@ std::set<Incarnation> Writer<Batch>::matched() const {
 template <class Batch>
 Reader<Batch>::Reader(Participant& participant) : participant_(participant) {
   auto& entities = participant_.entities();
-  const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities.self);
+  const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities.self, entities.silence);
   entity_ = made(dds_create_reader(entities.participant, topic_of<Batch>(entities), qos.get(), nullptr),
                  TopicOf<Batch>::kName);
   const dds_entity_t news = made(dds_create_readcondition(entity_, DDS_ANY_STATE), "a read condition");

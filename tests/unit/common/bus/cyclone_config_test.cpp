@@ -72,6 +72,7 @@ TEST(CycloneConfig, FacesThePeersAloneWhenARunHasSeveralHosts) {
   EXPECT_NE(config.find("<Peers><Peer Address=\"10.1.2.3\"/><Peer Address=\"b.example\"/></Peers>"), std::string::npos);
   EXPECT_EQ(config.find("127.0.0.1"), std::string::npos);
   EXPECT_EQ(config.find("\"lo\""), std::string::npos);
+  EXPECT_NE(config.find("<MaxMessageSize>1452B</MaxMessageSize>"), std::string::npos) << "fits into one packet";
 }
 
 TEST(CycloneConfig, SecuresARunBehindTheUsersWordSoThatHeCannotTakeItBack) {
