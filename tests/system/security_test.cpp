@@ -119,6 +119,30 @@ TEST_F(SecuredRun, LosesAnRsuAsAnyOther) {
   EXPECT_EQ(lukou({"inspect", in_folder("r")}).code, 0);
 }
 
+TEST_F(SecuredRun, TakesALostRsuInAgain) {
+  const std::string id = fresh_run_id();
+  Program secured({"run", "paper", "--duration", "240", "--pace", "30", "--quiet", "--secure", keys(), "--run-id", id,
+                   "--set", "run.on_rsu_loss=CONTINUE", "--out", in_folder("r")});
+  const auto recorded = [&](std::size_t bytes) {
+    for (int i = 0; i < 600 && content(in_folder("r") + "/road.csv").size() < bytes; ++i) usleep(20'000);
+  };
+  recorded(20'000);
+  const auto lost = processes_of(id).at("lukou-rsu");
+  const std::string domain = environment_of(lost, "LUKOU_DOMAIN");
+  kill(lost, SIGKILL);
+  recorded(60'000);
+  const std::string program = std::filesystem::path(LUKOU_PROGRAM).parent_path() / "lukou-rsu";
+  Program again({}, {"LUKOU_RUN=" + id, "LUKOU_DOMAIN=" + domain, "LUKOU_IDENTITY=" + keys() + "/rsu0"}, program);
+  EXPECT_EQ(secured.wait(), 0) << secured.err();
+  EXPECT_EQ(again.wait(), 0) << again.err();
+  EXPECT_NE(content(in_folder("r") + "/directives.textproto").find("epoch: 2"), std::string::npos) << "it was heard";
+  ASSERT_EQ(lukou({"run", in_folder("r") + "/scenario.textproto", "--mode", "in-process", "--quiet",
+                   "--replay-directives", in_folder("r") + "/directives.textproto", "--out", in_folder("replay")})
+                .code,
+            0);
+  EXPECT_EQ(differing_files(in_folder("r"), in_folder("replay")), std::vector<std::string>{});
+}
+
 TEST_F(SecuredRun, CanBeAskedOfTheDoctor) {
   const Finished doctor = lukou({"doctor", "--secure", keys()});
   EXPECT_EQ(doctor.code, 0) << doctor.out;
