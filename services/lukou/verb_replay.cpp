@@ -55,22 +55,22 @@ int show_again(const ReplayArguments& arguments) {
     return process::kExitUsage;
   }
   const std::string run = run_name(arguments.result);
-  auto claim = launch::DomainClaim::lowest_free(run);
+  auto claim = launch::DomainClaim::lowest_free({.run = run});
   if (!claim) {
     report_errors(claim.error());
     return process::kExitAborted;
   }
   std::optional<launch::ConsoleProcess> console;
   if (arguments.console != 0) {
-    auto started = launch::ConsoleProcess::start(static_cast<std::uint16_t>(arguments.console));
+    auto started = launch::ConsoleProcess::start(static_cast<std::uint16_t>(arguments.console), {});
     if (!started) return report_errors(started.error());
     console.emplace(std::move(started).value());
   } else {
     std::fprintf(stderr, "replays as %s until Ctrl-C; look at it with `lukou-console --attach %s`\n", run.c_str(),
                  run.c_str());
   }
-  const auto done =
-      replay::replay_on_bus(std::move(recording).value(), {claim.value().domain(), run}, console ? &*console : nullptr);
+  const auto done = replay::replay_on_bus(std::move(recording).value(), {.domain = claim.value().domain(), .run = run},
+                                          console ? &*console : nullptr);
   if (console) console->end();
   if (done) return process::kExitDone;
   report_errors(done.error());
