@@ -68,14 +68,17 @@ Expected<RunLogReader> RunLogReader::open(const std::filesystem::path& folder) {
 RunLogReader::RunLogReader(McapReader file, Facts facts)
     : file_(std::move(file)), facts_(std::move(facts)), decoder_(std::make_unique<Decoder>()) {}
 
+// Views into the other's chunk would dangle: the chunk is read again.
 RunLogReader::RunLogReader(RunLogReader&& other) noexcept
-    : file_(std::move(other.file_)), facts_(std::move(other.facts_)), decoder_(std::move(other.decoder_)) {}
+    : file_(std::move(other.file_)), facts_(std::move(other.facts_)), decoder_(std::move(other.decoder_)) {
+  seek(other.next_step_);
+}
 
 RunLogReader& RunLogReader::operator=(RunLogReader&& other) noexcept {
   file_ = std::move(other.file_);
   facts_ = std::move(other.facts_);
   decoder_ = std::move(other.decoder_);
-  seek(0);  // a view into the other's chunk would dangle
+  seek(other.next_step_);
   return *this;
 }
 
@@ -115,7 +118,7 @@ void RunLogReader::seek(Step step) {
   next_chunk_ = static_cast<std::size_t>(holds - chunks.begin());
   rest_ = {};
   message_.reset();
-  from_ = step;
+  from_ = next_step_ = step;
 }
 
 Expected<Done> RunLogReader::load(std::size_t chunk) {
@@ -149,6 +152,7 @@ Expected<LoggedStep*> RunLogReader::next() {
   }
   if (step_.step < 0) return static_cast<LoggedStep*>(nullptr);
   step_.traffic.step = step_.step;
+  next_step_ = step_.step + 1;
   return &step_;
 }
 

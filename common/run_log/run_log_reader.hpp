@@ -60,6 +60,7 @@ class RunLogReader {
   std::string chunk_;
   std::string_view rest_;                       ///< of the chunk
   std::optional<McapReader::Message> message_;  ///< taken off `rest_`, of a later step than the last one given
+  Step next_step_ = 0;                          ///< behind the last one given
   Step from_ = 0;                               ///< steps before are passed over
   LoggedStep step_;
 };

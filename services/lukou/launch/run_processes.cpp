@@ -10,11 +10,11 @@
 #include "common/process/log.hpp"
 #include "common/process/run_client.hpp"
 #include "common/scenario/scenario_steps.hpp"
-#include "services/lukou/home.hpp"
 #include "services/lukou/launch/child.hpp"
 #include "services/lukou/launch/console_process.hpp"
 #include "services/lukou/launch/domain_claim.hpp"
 #include "services/lukou/launch/result_of_run.hpp"
+#include "services/lukou/launch/rsu_child.hpp"
 #include "services/lukou/launch/run_request.hpp"
 
 namespace lukou::launch {
@@ -39,13 +39,6 @@ std::optional<int> core_for(const RunRequest& request, int domain) {
     if (CPU_ISSET(static_cast<unsigned>(core), &ours)) cores.push_back(core);
   if (cores.empty()) return std::nullopt;
   return cores[static_cast<std::size_t>(domain) % cores.size()];
-}
-
-/// Where Python finds the module `lukou`, before what the user has set.
-std::string python_path() {
-  const char* set = std::getenv("PYTHONPATH");
-  const std::string ours = find_home().python.string();
-  return set == nullptr || *set == '\0' ? ours : ours + ":" + set;
 }
 
 /// One run of processes, from the first fork to the last exit.
@@ -111,12 +104,7 @@ class Session {
       } else if (started.empty()) {
         if (auto done = member(rsu_role(rsu), "lukou-rsu", {"--index", index}); !done) return done;
       } else {
-        auto variables = environment(rsu_role(rsu));
-        variables.push_back("LUKOU_RSU=" + index);
-        variables.push_back("PYTHONPATH=" + python_path());
-        ChildSpec spec{
-            .role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + started}, .environment = variables};
-        if (auto done = start(std::move(spec)); !done) return done;
+        if (auto done = start(rsu_child(rsu, started, environment(rsu_role(rsu)))); !done) return done;
       }
     }
     return Done{};

@@ -157,6 +157,17 @@ TEST_F(RunLog, BeginsAtAnyStep) {
   EXPECT_EQ(log.next().value(), nullptr);
 }
 
+TEST_F(RunLog, GoesOnWhereItWasWhenItIsMoved) {
+  write_log(Level::kFull);
+  RunLogReader log = open();
+  log.seek(33);
+  EXPECT_EQ(log.next().value()->step, 33);
+  RunLogReader moved(std::move(log));
+  EXPECT_EQ(moved.next().value()->step, 34);
+  moved = open();
+  EXPECT_EQ(moved.next().value()->step, 0);
+}
+
 TEST_F(RunLog, OfARecorderThatWasKilledGoesToItsLastWholeChunk) {
   write_log(Level::kFull, 57, false);
   RunLogReader log = open();
