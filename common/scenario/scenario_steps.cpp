@@ -18,4 +18,6 @@ Protocol protocol(const Resolved& scenario) {
           .rsu_measured = std::move(measured)};
 }
 
+bool logs_everything(const Resolved& scenario) { return scenario.message().record().log() == Record::FULL; }
+
 }  // namespace lukou::scenario

@@ -18,7 +18,8 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"lockstep", {"core"}},
     {"bus", {"core", "lockstep", "messages", "radio"}},
     {"measures", {"core", "intersection", "radio", "bus"}},  // of the bus the plain batches alone, see kOnlyHeader
-    {"results", {"core", "intersection", "measures"}},       // of the measures the plain rows alone, see kOnlyHeader
+    {"run_log", {"core", "radio", "bus"}},                   // of the bus the plain batches alone, see kOnlyHeader
+    {"results", {"core", "intersection", "measures", "run_log"}},  // of the measures the plain rows alone
     {"process", {"core", "lockstep", "bus"}},
 };
 
@@ -30,6 +31,7 @@ struct OnlyHeader {
 };
 const std::vector<OnlyHeader> kOnlyHeader = {
     {"common/measures", "common/bus", "common/bus/batches.hpp"},
+    {"common/run_log", "common/bus", "common/bus/batches.hpp"},
     {"common/results", "common/measures", "common/measures/rows.hpp"},
     {"services/rsu/sdk", "common/messages", "common/messages/binding.hpp"},
 };

@@ -80,10 +80,12 @@ class Session {
  private:
   Expected<Done> start_all() {
     const auto member = [&](const std::string& role, const std::string& name, std::vector<std::string> more) {
+      // Who writes all down has more to do than anybody in the lockstep, and nobody waits for it.
+      const bool apart = role == kRecorderRole && scenario::logs_everything(request_.scenario) && !request_.core;
       ChildSpec spec{.role = role,
                      .command = {program(name).string()},
                      .environment = environment(role),
-                     .core = core_for(request_, address_.domain),
+                     .core = apart ? std::nullopt : core_for(request_, address_.domain),
                      .log = folder_ / "operator.log"};
       if (!request_.watchdog) more.emplace_back("--no-watchdog");
       spec.command.insert(spec.command.end(), more.begin(), more.end());
