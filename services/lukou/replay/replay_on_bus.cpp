@@ -133,7 +133,7 @@ class Projector {
 }  // namespace
 
 Expected<Done> replay_on_bus(Recording recording, const bus::Address& address, launch::ConsoleProcess* console) {
-  auto participant = bus::Participant::join(address, process::new_incarnation());
+  auto participant = bus::Participant::join(address, kClockRole, process::new_incarnation());
   if (!participant) return participant.error();
   participant.value()->keep_writing_while([] { return process::stop_signal() == 0; });
   Projector projector(std::move(recording), address.run, *participant.value());
