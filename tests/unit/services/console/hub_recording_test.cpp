@@ -1,6 +1,9 @@
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
+#include "console.pb.h"
 #include "tests/unit/services/console/hub_rig.hpp"
 
 namespace lukou::console {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/scenario/scenario.hpp"
+#include "console.pb.h"
 #include "tests/unit/common/lockstep/clock_rig.hpp"
 #include "tests/unit/services/console/hub_rig.hpp"
 
