@@ -56,6 +56,9 @@ struct RoadsideBatch {
   std::uint32_t requests_refused = 0;   ///< requests for greens that nobody takes: the plan is fixed
   std::uint32_t computing_ms = 0;       ///< delays whatever the algorithm answered in this step; 0 if its time is free
   FrameFates uplink;                    ///< of each frame in the air of this step; empty under the ideal radio
+  // The request of the RequestBatch of this step, for the record; none or one.
+  std::vector<std::uint16_t> request_lanes;
+  std::vector<Step> request_lifetime;
 };
 
 /// RSU to signal controller: the greens that it asks for at t_step. Only in a run with signals.actuation.
@@ -221,6 +224,15 @@ struct TrafficBatch {
   std::vector<std::uint32_t> uplink_vehicle;
   std::vector<std::uint32_t> uplink_rsu;
   FrameFates uplink;
+
+  // All that was said and sensed, for a run log that holds it; else empty.
+  Frames air;                              ///< what the cars sent at t_step: as in AirBatch
+  SensedColumns sensed;                    ///< what sensors delivered then
+  Frames said;                             ///< what the RSUs had sent at t_(step-1), as heard in this step, RSU by RSU
+  std::vector<std::uint32_t> said_rsu;     ///< of each of these frames
+  std::vector<std::uint32_t> asked_rsu;    ///< whose request for greens of t_(step-1) ...
+  std::vector<std::uint16_t> asked_lanes;  ///< ... was for these: bit n = lane n ...
+  std::vector<Step> asked_lifetime;        ///< ... for so many steps
 
   void clear();
 };

@@ -226,6 +226,8 @@ void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
   request_.step = k;
   request_.lanes.clear();
   request_.lifetime.clear();
+  out.request_lanes.clear();
+  out.request_lifetime.clear();
   if (answer_.request() && !config_.actuation) {
     out.requests_refused = 1;
   } else if (answer_.request()) {
@@ -238,6 +240,8 @@ void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
   if (lifetime > 0 || due.lifetime <= 0) {
     request_.lanes.push_back(due.green.bits());
     request_.lifetime.push_back(lifetime);
+    out.request_lanes = request_.lanes;
+    out.request_lifetime = request_.lifetime;
   }
   held_requests_.pop_front();
 }

@@ -140,6 +140,7 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   air.frames.clear();
   say_safety_messages(engine_, unit_errors_, k, air.frames, speakers_);
   report_sensed(sensors_.look(k, engine_), air.sensed);
+  if (config_.record_frames) report_frames(roadside, air, traffic);
   load_.add_air(air.frames, k);
   between_cars_.hear(air.frames, k, load_);
   next_ = k + 1;
@@ -347,6 +348,21 @@ Expected<Done> EngineNode::report_uplink(const RoadsideBatch& batch, TrafficBatc
   traffic.uplink_rsu.insert(traffic.uplink_rsu.end(), speakers_.size(), batch.rsu);
   traffic.uplink.add(told);
   return Done{};
+}
+
+void EngineNode::report_frames(std::span<const RoadsideBatch* const> roadside, const AirBatch& air,
+                               TrafficBatch& traffic) {
+  traffic.air = air.frames;
+  traffic.sensed = air.sensed;
+  for (const RoadsideBatch* batch : roadside) {
+    if (batch == nullptr) continue;
+    traffic.said.append(batch->frames);
+    traffic.said_rsu.resize(traffic.said.size(), batch->rsu);
+    if (batch->request_lanes.empty()) continue;
+    traffic.asked_rsu.push_back(batch->rsu);
+    traffic.asked_lanes.push_back(batch->request_lanes.front());
+    traffic.asked_lifetime.push_back(batch->request_lifetime.front());
+  }
 }
 
 }  // namespace lukou
