@@ -10,6 +10,7 @@
 
 #include "common/scenario/scenario.hpp"
 #include "console.pb.h"
+#include "services/lukou/replay/player.hpp"
 #include "tests/unit/common/lockstep/clock_rig.hpp"
 #include "tests/unit/services/console/hub_rig.hpp"
 
@@ -121,6 +122,16 @@ void hear_the_clock(Heard& heard) {
   heard.add(refusal(replay.ask("set traffic.west.flow_veh_per_h=2")));
 }
 
+/// What replays a recording in the clock's place.
+void hear_the_replay(Heard& heard) {
+  replay::Player player(9000, 0.0);
+  for (const char* request : {"seek soon", "set a=1", "vanish"}) {
+    const auto answer = player.request(0.0, request);
+    ASSERT_FALSE(answer.ok());
+    heard.add(answer.error().text());
+  }
+}
+
 /// How runs end that do not end well.
 void hear_the_ends(Heard& heard) {
   const auto end_of = [&heard](const ClockRig& rig) { heard.add(rig.core.state().text); };
@@ -224,6 +235,7 @@ TEST(Sentences, AreThoseThatThePageKnows) {
   Heard heard;
   hear_the_hub(heard);
   hear_the_clock(heard);
+  hear_the_replay(heard);
   hear_the_ends(heard);
   hear_the_scenario(heard);
   std::vector<std::string> listed;

@@ -24,6 +24,7 @@ export const SENTENCES: readonly (readonly [english: string, chinese: string])[]
     '没有可重新开始本次运行的程序；用 `lukou run --console` 启动才有',
   ],
   ['nothing can be changed in a recording', '录制的运行不能修改'],
+  ['`{text}` is not a time; use a number of seconds of at least 0', '“{text}”不是时间；须为不小于 0 的秒数'],
   ['`{text}` is not a time; use `{form}`', '“{text}”不是时间；请写作 `{form}`'],
   ['`{text}` is not a number of steps; use a whole number of at least 1', '“{text}”不是步数；须为不小于 1 的整数'],
   ['`{text}` is not a pace; use {words} or a factor in {range}', '“{text}”不是速度；可用 {words} 或 {range} 内的倍数'],
