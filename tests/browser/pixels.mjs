@@ -95,6 +95,7 @@ export const UNEQUIPPED = [0xe2, 0x56, 0x2b];
 export const ADVICE = [0x0b, 0x8f, 0x8a];
 export const LOST = [0x8a, 0x1f, 0xa8];
 export const RED = [0xf0, 0x45, 0x3a];
+export const YELLOW = [0xf5, 0xb9, 0x21];
 export const GREEN = [0x35, 0xc4, 0x6f];
 
 export const near = (colour, wanted) => wanted.every((c, i) => Math.abs(colour[i] - c) <= 12) && colour[3] > 200;

@@ -1,30 +1,13 @@
 // The page on a recording: what replays it is written here, and speaks as lukou-console does.
 import assert from 'node:assert/strict';
-import { once } from 'node:events';
 import { readFileSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { dirname, extname, join } from 'node:path';
 import { after, before, beforeEach, describe, test } from 'node:test';
 
-import { axeFindings, decoded, encoded, launch, programs, slideTo, stepOf, until } from './session.mjs';
+import { helloOf, NAMES, pictureOf, servePage } from './scripted.mjs';
+import { axeFindings, decoded, encoded, launch, slideTo, stepOf, until } from './session.mjs';
 
 const LAST = 9000;
 const WEST = 'traffic.west.flow_veh_per_h';
-const NAMES = ['W', 'S', 'E', 'N'].flatMap((side) => ['L', 'C', 'R'].map((turn) => side + turn));
-
-/** Twelve straight lanes of 500 m before the line and 100 m behind it. */
-const lanes = NAMES.map((name, i) => {
-  const off = 1.75 + 3.5 * (i % 3);
-  const at = (m) =>
-    [
-      [m, -off],
-      [off, m],
-      [-m, off],
-      [-off, -m],
-    ][Math.floor(i / 3)];
-  const points = [at(-515.5), at(-15.5), at(84.5)].map(([xM, yM]) => ({ xM, yM }));
-  return { name, points, distanceM: [0, 500, 600], stopLineM: 500 };
-});
 const live = [WEST, 'traffic.south.flow_veh_per_h', 'vehicles.equipped_ratio', 'signals.preset'].map((path) => ({
   path,
   unit: '',
@@ -33,34 +16,9 @@ const live = [WEST, 'traffic.south.flow_veh_per_h', 'vehicles.equipped_ratio', '
   min: 0,
   max: 10800,
 }));
-const program = {
-  cycleSteps: 900,
-  lanes: NAMES.map((_, i) => ({ aspect: i % 6 < 3 ? [3, 1] : [1, 3], steps: [450, 450] })),
-};
 /** A car that drives 1 m a step, lap after lap. */
-const picture = (step) => ({
-  step: BigInt(step),
-  vehicle: [4],
-  lane: Uint8Array.of(1),
-  equipped: Uint8Array.of(1),
-  positionM: [step % 600],
-  speedMps: [10],
-  accelerationMps2: [0],
-  commandedMps2: [NaN],
-  state: Uint8Array.of(0),
-  guidance: Uint8Array.of(1),
-  boundBy: Uint8Array.of(0),
-  missed: Uint8Array.of(255),
-  stoodS: [0],
-  adviceAge: [-1],
-  uplink: Uint8Array.of(0),
-  heardAge: [1],
-  heads: Uint8Array.from(NAMES, () => 1),
-  changeIn: NAMES.map(() => 10),
-  nextAspect: Uint8Array.from(NAMES, () => 3),
-  waiting: [0, 0, 0, 0],
-  program,
-});
+const picture = (step) =>
+  pictureOf(step, [{ vehicle: 4, lane: 1, equipped: true, positionM: step % 600, speedMps: 10 }]);
 const group = (step) => ({ arrived: step, meanDelayS: step / 100 });
 
 /** What answers one page. */
@@ -76,8 +34,7 @@ class Replay {
   serve(socket) {
     this.socket = socket;
     socket.onMessage((bytes) => this.hear(decoded(bytes)));
-    const hello = { run: 'recorded-1', lanes, live, vehicleLengthM: 4.5, vehicleWidthM: 1.8, laneWidthM: 3.5 };
-    this.say('hello', { ...hello, speedLimitMps: 16, stepS: 0.1, viewer: 1, recordedTo: BigInt(LAST), seed: '1' });
+    this.say('hello', { ...helloOf('recorded-1'), live, recordedTo: BigInt(LAST) });
     const directive = (step, text) => ({ step: BigInt(step), kind: 'directive', text });
     this.say('history', { events: [directive(3000, `${WEST}=600`), directive(5000, `${WEST}=300`)] });
     this.say('hands', { holder: this.holder, viewers: 1 });
@@ -127,16 +84,7 @@ let browser;
 let server;
 before(async () => {
   browser = await launch();
-  const folder = join(dirname(programs), 'console');
-  const types = { '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.html': 'text/html' };
-  server = createServer((request, response) => {
-    const { pathname } = new URL(request.url, 'http://x');
-    const file = pathname === '/' ? '/index.html' : pathname;
-    response.setHeader('Content-Type', types[extname(file)] ?? 'text/plain');
-    response.end(readFileSync(join(folder, file)));
-  });
-  server.listen(0, '127.0.0.1');
-  await once(server, 'listening');
+  server = await servePage();
 });
 after(async () => {
   server?.close();
