@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "common/process/line_link.hpp"
 #include "common/process/run_client.hpp"
@@ -66,14 +68,20 @@ class Followed {
   Followed(std::unique_ptr<process::RunClient> client, std::string run, console::Hub& hub)
       : client_(std::move(client)), run_(std::move(run)), hub_(hub) {
     client_->on_control([this](const Control& control) { hear(control); });
-    client_->ask("scenario");
+    client_->ask("recording");
   }
 
   void hear(const Control& control) {
     if (begun_ && control.kind == Control::Kind::kReply) return hub_.answered(control.ok, control.text);
     if (begun_) return hub_.hear(control);
     if (control.kind != Control::Kind::kReply) return;  // what the answer will tell
-    auto story = console::RunStory::of(run_, control.text);
+    if (!asked_) {
+      // A clock knows no such request; what replays a recording answers with its last step.
+      if (control.ok) recorded_to_ = std::atoll(control.text.c_str());
+      asked_ = true;
+      return client_->ask("scenario");
+    }
+    auto story = console::RunStory::of(run_, control.text, recorded_to_);
     if (!story) return process::log_error(story.error().text());
     std::vector<Directive> so_far;
     for (std::size_t i = 0; i < control.directive_step.size(); ++i) {
@@ -86,6 +94,8 @@ class Followed {
   std::unique_ptr<process::RunClient> client_;
   std::string run_;
   console::Hub& hub_;
+  bool asked_ = false;  ///< whether this is a recording
+  std::optional<Step> recorded_to_;
   bool begun_ = false;
   std::uint64_t views_ = 0;
 };

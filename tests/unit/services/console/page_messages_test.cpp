@@ -44,6 +44,9 @@ TEST(PageMessages, ShowEachCarAndHead) {
   EXPECT_EQ(picture.stood_s(0), 1.5F);
   EXPECT_EQ(picture.advice_age(0), 3);
   EXPECT_EQ(picture.advice_age(1), -1) << "never one";
+  EXPECT_EQ(picture.uplink(), std::string("\0\xff", 2));
+  EXPECT_EQ(picture.heard_age(0), 2);
+  EXPECT_EQ(picture.heard_age(1), -1) << "never";
   EXPECT_EQ(picture.change_in(0), 150);
   EXPECT_EQ(picture.change_in(5), -1) << "not known";
 }
