@@ -69,12 +69,16 @@ RunLogReader::RunLogReader(McapReader file, Facts facts)
     : file_(std::move(file)), facts_(std::move(facts)), decoder_(std::make_unique<Decoder>()) {}
 
 RunLogReader::RunLogReader(RunLogReader&& other) noexcept
-    : file_(std::move(other.file_)), facts_(std::move(other.facts_)), decoder_(std::move(other.decoder_)) {}
+    : file_(std::move(other.file_)),
+      facts_(std::move(other.facts_)),
+      decoder_(std::move(other.decoder_)),
+      channels_(other.channels_) {}
 
 RunLogReader& RunLogReader::operator=(RunLogReader&& other) noexcept {
   file_ = std::move(other.file_);
   facts_ = std::move(other.facts_);
   decoder_ = std::move(other.decoder_);
+  channels_ = other.channels_;
   seek(0);  // a view into the other's chunk would dangle
   return *this;
 }
@@ -84,6 +88,11 @@ RunLogReader::~RunLogReader() = default;
 Step RunLogReader::last_step() const {
   const auto& chunks = file_.index().chunks;
   return chunks.empty() ? -1 : step_at(chunks.back().last_ns);
+}
+
+void RunLogReader::read_only(std::initializer_list<Channel> channels) {
+  channels_ = 0;
+  for (const Channel channel : channels) channels_ |= 1U << static_cast<unsigned>(channel);
 }
 
 void RunLogReader::seek(Step step) {
@@ -131,6 +140,7 @@ Expected<const LoggedStep*> RunLogReader::next() {
 }
 
 Expected<Done> RunLogReader::take(const McapReader::Message& message) {
+  if (message.channel < 32 && (channels_ & (1U << message.channel)) == 0) return Done{};
   const auto parsed = [&](auto& into) {
     return into.ParseFromArray(message.data.data(), static_cast<int>(message.data.size()));
   };

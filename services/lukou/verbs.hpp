@@ -19,5 +19,6 @@ Action add_doctor(CLI::App& app);
 Action add_algorithms(CLI::App& app);
 Action add_new(CLI::App& app);
 Action add_why(CLI::App& app);
+Action add_plot(CLI::App& app);
 
 }  // namespace lukou

@@ -83,6 +83,25 @@ double advance(char32_t code) {
   return code >= 'A' && code <= 'Z' ? 0.69 : 0.62;
 }
 
+/// Chinese letters, without the punctuation, which stays with what is before it.
+bool is_chinese(char32_t code) { return code >= 0x3400 && code < 0xFB00; }
+
+/// Parts of a text between which a line may end, with the blanks behind them: words, and single letters of Chinese.
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  std::size_t from = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const char32_t code = next_code_point(text, at);
+    std::size_t behind = at;
+    const char32_t next = at < text.size() ? next_code_point(text, behind) : U' ';
+    const bool may_end = code == U' ' ? next != U' ' : is_chinese(next) && code >= 0x2E80;
+    if (!may_end && at < text.size()) continue;
+    words.push_back(text.substr(from, at - from));
+    from = at;
+  }
+  return words;
+}
+
 }  // namespace
 
 void Svg::line(Point from, Point to, const Stroke& stroke) {
@@ -221,22 +240,17 @@ double text_width_pt(std::string_view text, double size_pt) {
 }
 
 std::vector<std::string> wrapped(const std::string& text, double size_pt, double width_pt) {
+  // A blank behind the last word of a line may stand out.
+  const auto trimmed = [](const std::string& line) { return line.substr(0, line.find_last_not_of(' ') + 1); };
   std::vector<std::string> lines;
   std::string line;
-  for (std::size_t from = 0; from < text.size();) {
-    const std::size_t to = std::min(text.find(' ', from), text.size());
-    const std::string word = text.substr(from, to - from);
-    std::string longer = line;
-    longer.append(line.empty() ? "" : " ").append(word);
-    if (!line.empty() && text_width_pt(longer, size_pt) > width_pt) {
-      lines.push_back(line);
-      line = word;
-    } else {
-      line = longer;
-    }
-    from = to + 1;
+  for (const std::string_view word : words_of(text)) {
+    const std::string longer = line + std::string(word);
+    const bool fits = line.empty() || text_width_pt(trimmed(longer), size_pt) <= width_pt;
+    if (!fits) lines.push_back(trimmed(line));
+    line = fits ? longer : std::string(word);
   }
-  if (!line.empty()) lines.push_back(line);
+  if (!trimmed(line).empty()) lines.push_back(trimmed(line));
   return lines;
 }
 
