@@ -15,7 +15,8 @@ tier=${1:-}
 case "$tier" in
   "" ) ;;
   --tests ) packages+=(clang-format-19 chromium fonts-wqy-zenhei) ;;
-  --full ) packages+=(clang-format-19 clang-tidy-19 time chromium fonts-wqy-zenhei) ;;
+  --full ) packages+=(clang-format-19 clang-tidy-19 time chromium fonts-wqy-zenhei
+                      iproute2 nftables openssh-client faketime) ;;
   * ) echo "setup.sh: unknown argument $tier; use --tests or --full" >&2; exit 2 ;;
 esac
 

@@ -8,15 +8,22 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "common/bus/cyclone_config.hpp"
+#include "common/bus/identity.hpp"
 #include "common/bus/samples.hpp"
+#include "common/bus/surroundings.hpp"
 #include "common/core/contract.hpp"
 
 namespace lukou::bus {
 namespace {
 
 constexpr std::int32_t kHistorySteps = 512;
+/// Silence that means that a process is gone. Cyclone gives a sign of life when 80 % of it are over; between hosts that
+/// may be lost, and said again.
+constexpr dds_duration_t kSilence = DDS_SECS(2);
+constexpr dds_duration_t kSilenceOfHosts = DDS_SECS(10);
 
 std::string reason(dds_return_t code) { return dds_strretcode(-code); }
 
@@ -34,7 +41,7 @@ struct QosDeleter {
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
-Qos qos_of(Service service, bool writer, Incarnation self) {
+Qos qos_of(Service service, bool writer, Incarnation self, dds_duration_t silence) {
   Qos qos(dds_create_qos());
   const bool reliable = service != Service::kPicture;
   dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(100));
@@ -49,7 +56,7 @@ Qos qos_of(Service service, bool writer, Incarnation self) {
   if (writer) {
     // A process that dies must not look like one that says good-bye.
     dds_qset_writer_data_lifecycle(qos.get(), false);
-    if (service == Service::kStream) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
+    if (service == Service::kStream) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, silence);
   }
   dds_qset_userdata(qos.get(), &self, sizeof self);
   return qos;
@@ -117,6 +124,8 @@ void sign(Sample& sample, Incarnation self, std::uint32_t epoch) {
 
 }  // namespace
 
+std::string Address::tag() const { return discovery_tag(run, !identity.empty()); }
+
 std::string library_version() { return std::string("Cyclone DDS ") + DDS_VERSION; }
 
 namespace {
@@ -124,7 +133,7 @@ namespace {
 /// A process has one DDS domain per id, whoever in it asks first: participants of the same run share it.
 class Domain {
  public:
-  static Expected<std::shared_ptr<Domain>> of(const Address& address) {
+  static Expected<std::shared_ptr<Domain>> of(const Address& address, const Identity* identity) {
     static std::mutex mutex;
     static std::map<int, std::weak_ptr<Domain>> open;
     const std::string where = "DDS domain " + std::to_string(address.domain);
@@ -133,7 +142,20 @@ class Domain {
       if (domain->run_ == address.run) return domain;
       return Error{where, "is in use for the run " + domain->run_ + " in this process"};
     }
-    const std::string config = cyclone_config(address.run, std::getenv("CYCLONEDDS_URI"));
+    const char* users = std::getenv("CYCLONEDDS_URI");
+    CycloneSettings settings{.run = address.run, .peers = address.peers, .identity = identity};
+    if (users != nullptr) settings.users_uri = users;
+    if (!address.peers.empty()) {
+      auto own = own_address_towards(address.peers.front());
+      if (!own) return own.error();
+      settings.own_address = std::move(own).value();
+    }
+    if (identity != nullptr) {
+      auto plugins = security_plugins();
+      if (!plugins) return plugins.error();
+      settings.plugins = std::move(plugins).value();
+    }
+    const std::string config = cyclone_config(settings);
     const dds_entity_t entity = dds_create_domain(static_cast<dds_domainid_t>(address.domain), config.c_str());
     if (entity < 0) {
       return Error{where, "cannot be configured (" + reason(entity) +
@@ -161,6 +183,7 @@ struct Participant::Entities {
   std::shared_ptr<Domain> domain;
   dds_entity_t participant = 0;
   dds_entity_t waitset = 0;
+  dds_duration_t silence = kSilence;
   std::function<bool()> keep_writing = [] { return true; };
 
   Entities() = default;
@@ -171,13 +194,30 @@ struct Participant::Entities {
   }
 };
 
-Expected<std::unique_ptr<Participant>> Participant::join(const Address& address, Incarnation self) {
+Expected<std::unique_ptr<Participant>> Participant::join(const Address& address, std::string_view role,
+                                                         Incarnation self) {
+  std::optional<Identity> identity;
+  if (!address.identity.empty()) {
+    auto opened = open_identity(address.identity);
+    if (!opened) return opened.error();
+    identity = std::move(opened).value();
+    if (identity->role != role) {
+      return Error{address.identity.string(),
+                   "is the identity of " + identity->role + ", this process is " + std::string(role)};
+    }
+  }
   auto entities = std::make_unique<Entities>();
   entities->self = self;
-  auto domain = Domain::of(address);
+  if (!address.peers.empty()) entities->silence = kSilenceOfHosts;
+  auto domain = Domain::of(address, identity ? &*identity : nullptr);
   if (!domain) return domain.error();
   entities->domain = std::move(domain).value();
   entities->participant = dds_create_participant(static_cast<dds_domainid_t>(address.domain), nullptr, nullptr);
+  if (entities->participant < 0 && identity) {
+    return Error{address.identity.string(), "lets nobody into DDS domain " + std::to_string(address.domain) + " (" +
+                                                reason(entities->participant) +
+                                                "); `lukou keys show DIR` checks the files"};
+  }
   if (entities->participant < 0) {
     return Error{"DDS domain " + std::to_string(address.domain),
                  "cannot be joined (" + reason(entities->participant) + "); is loopback up, are UDP ports " +
@@ -214,7 +254,7 @@ dds_entity_t topic_of(Participant::Entities& entities) {
 template <class Batch>
 Writer<Batch>::Writer(Participant& participant) : participant_(participant) {
   auto& entities = participant_.entities();
-  const Qos qos = qos_of(TopicOf<Batch>::kService, true, entities.self);
+  const Qos qos = qos_of(TopicOf<Batch>::kService, true, entities.self, entities.silence);
   entity_ = made(dds_create_writer(entities.participant, topic_of<Batch>(entities), qos.get(), nullptr),
                  TopicOf<Batch>::kName);
 }
@@ -246,7 +286,7 @@ std::set<Incarnation> Writer<Batch>::matched() const {
 template <class Batch>
 Reader<Batch>::Reader(Participant& participant) : participant_(participant) {
   auto& entities = participant_.entities();
-  const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities.self);
+  const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities.self, entities.silence);
   entity_ = made(dds_create_reader(entities.participant, topic_of<Batch>(entities), qos.get(), nullptr),
                  TopicOf<Batch>::kName);
   const dds_entity_t news = made(dds_create_readcondition(entity_, DDS_ANY_STATE), "a read condition");

@@ -12,7 +12,7 @@ constexpr double kAskAgain_s = 0.2;
 }  // namespace
 
 Expected<std::unique_ptr<RunClient>> RunClient::attach(const bus::Address& address, bool with_view) {
-  auto participant = bus::Participant::join(address, new_incarnation());
+  auto participant = bus::Participant::join(address, kObserverRole, new_incarnation());
   if (!participant) return participant.error();
   return std::unique_ptr<RunClient>(new RunClient(std::move(participant).value(), with_view));
 }

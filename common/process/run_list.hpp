@@ -4,21 +4,27 @@
 #include <string_view>
 #include <vector>
 
+#include "common/bus/participant.hpp"
 #include "common/core/expected.hpp"
 
 namespace lukou::process {
 
-/// A launcher binds the abstract Unix socket "<prefix><run>/<domain>" as long as its run lasts: so runs are found.
-inline constexpr std::string_view kRunSocketPrefix = "lukou/run/";
-
+/// A run that a launcher on this host (network namespace) keeps going.
 struct ListedRun {
   std::string run;
   int domain = -1;
+  bool secured = false;  ///< only who has an identity reaches it
+  bool hosts = false;    ///< spread over several hosts: only who names its peers reaches it
 };
+/// A launcher binds the abstract Unix socket of this name as long as its run lasts: so runs are found.
+std::string socket_name(const ListedRun& run);
+
 /// Runs of this host (network namespace), by name.
 std::vector<ListedRun> list_runs();
-/// The run of that name, or the only one whose name begins so. The error lists what there is.
-Expected<ListedRun> find_run(const std::string& name);
+/// Where the run of that name is, or the only one whose name begins so. `given`: identity, peers and domain (-1: not
+/// given) of who wants to reach it; with a domain, a run that is not listed here is one of another host.
+/// Errors: what runs there are; a secured run and no identity, or the reverse; a run on several hosts and no peers.
+Expected<bus::Address> find_run(const std::string& name, const bus::Address& given);
 
 /// The abstract Unix sockets in this network namespace whose names begin with `prefix`, without it.
 std::vector<std::string> bound_names(std::string_view prefix);

@@ -68,18 +68,21 @@ Expected<RunLogReader> RunLogReader::open(const std::filesystem::path& folder) {
 RunLogReader::RunLogReader(McapReader file, Facts facts)
     : file_(std::move(file)), facts_(std::move(facts)), decoder_(std::make_unique<Decoder>()) {}
 
+// Views into the other's chunk would dangle: the chunk is read again.
 RunLogReader::RunLogReader(RunLogReader&& other) noexcept
     : file_(std::move(other.file_)),
       facts_(std::move(other.facts_)),
       decoder_(std::move(other.decoder_)),
-      channels_(other.channels_) {}
+      channels_(other.channels_) {
+  seek(other.next_step_);
+}
 
 RunLogReader& RunLogReader::operator=(RunLogReader&& other) noexcept {
   file_ = std::move(other.file_);
   facts_ = std::move(other.facts_);
   decoder_ = std::move(other.decoder_);
   channels_ = other.channels_;
-  seek(0);  // a view into the other's chunk would dangle
+  seek(other.next_step_);
   return *this;
 }
 
@@ -95,6 +98,28 @@ void RunLogReader::read_only(std::initializer_list<Channel> channels) {
   for (const Channel channel : channels) channels_ |= 1U << static_cast<unsigned>(channel);
 }
 
+Expected<std::vector<Directive>> RunLogReader::directives() const {
+  std::vector<Directive> found;
+  const auto& chunks = file_.index().chunks;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    // Of a chunk whose indexes a death has torn off nothing is known.
+    const auto& held = chunks[i].message_indexes;
+    if (!held.empty() && !held.contains(static_cast<std::uint16_t>(Channel::kDirective))) continue;
+    const auto messages = file_.chunk(i);
+    if (!messages) return messages.error();
+    std::string_view rest = messages.value();
+    while (const auto message = McapReader::take_message(rest)) {
+      if (message->channel != static_cast<std::uint16_t>(Channel::kDirective)) continue;
+      record::Directive directive;
+      if (!directive.ParseFromArray(message->data.data(), static_cast<int>(message->data.size()))) {
+        return Error{std::string(kRunLog) + ": /directive", "a message is broken"};
+      }
+      found.push_back({directive.step(), directive.set()});
+    }
+  }
+  return found;
+}
+
 void RunLogReader::seek(Step step) {
   const auto& chunks = file_.index().chunks;
   const auto holds =
@@ -102,7 +127,7 @@ void RunLogReader::seek(Step step) {
   next_chunk_ = static_cast<std::size_t>(holds - chunks.begin());
   rest_ = {};
   message_.reset();
-  from_ = step;
+  from_ = next_step_ = step;
 }
 
 Expected<Done> RunLogReader::load(std::size_t chunk) {
@@ -113,7 +138,7 @@ Expected<Done> RunLogReader::load(std::size_t chunk) {
   return Done{};
 }
 
-Expected<const LoggedStep*> RunLogReader::next() {
+Expected<LoggedStep*> RunLogReader::next() {
   step_.step = -1;
   step_.cars = false;
   step_.directives.clear();
@@ -134,9 +159,10 @@ Expected<const LoggedStep*> RunLogReader::next() {
     }
     message_.reset();
   }
-  if (step_.step < 0) return static_cast<const LoggedStep*>(nullptr);
+  if (step_.step < 0) return static_cast<LoggedStep*>(nullptr);
   step_.traffic.step = step_.step;
-  return static_cast<const LoggedStep*>(&step_);
+  next_step_ = step_.step + 1;
+  return &step_;
 }
 
 Expected<Done> RunLogReader::take(const McapReader::Message& message) {

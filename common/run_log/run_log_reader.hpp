@@ -42,10 +42,14 @@ class RunLogReader {
 
   /// From now on only these channels are decoded; what the others hold is missing from the steps.
   void read_only(std::initializer_list<Channel> channels);
+  /// The operator's changes, all of the run: only chunks that hold some are read.
+  Expected<std::vector<Directive>> directives() const;
+
   /// The next step that next() gives. Steps before the first come as the first, those after the last as none.
   void seek(Step step);
-  /// The next step, or nothing at the end. Errors: a chunk that is broken, with its place.
-  Expected<const LoggedStep*> next();
+  /// The next step, or null at the end; it may be moved or swapped from. Errors: a chunk that is broken, with its
+  /// place.
+  Expected<LoggedStep*> next();
 
  private:
   struct Decoder;
@@ -60,6 +64,7 @@ class RunLogReader {
   std::string chunk_;
   std::string_view rest_;                       ///< of the chunk
   std::optional<McapReader::Message> message_;  ///< taken off `rest_`, of a later step than the last one given
+  Step next_step_ = 0;                          ///< behind the last one given
   Step from_ = 0;                               ///< steps before are passed over
   std::uint32_t channels_ = ~0U;                ///< that are decoded: bit n = channel n
   LoggedStep step_;

@@ -27,6 +27,8 @@ class ClockOnTheBus {
     up_.take([this](Up& message, const bus::SampleInfo& info) {
       if (info.alive && message.kind == Up::Kind::kRequest) {
         requests_.push_back(message);
+      } else if (info.alive && message.kind == Up::Kind::kJoin && !control_.matched().contains(message.incarnation)) {
+        return;  // the Welcome would not reach it: it asks again
       } else if (info.alive) {
         core_.receive(process::wall_s(), message);
       } else {
@@ -160,7 +162,7 @@ int run(int argc, char** argv) {
   auto settings = settings_of(options.value(), scenario.value());
   if (!settings) return process::report_start(settings.error(), process::kExitUsage);
 
-  const auto participant = bus::Participant::join(options.value().address, process::new_incarnation());
+  const auto participant = bus::Participant::join(options.value().address, kClockRole, process::new_incarnation());
   if (!participant) return process::report_start(participant.error(), process::kExitAborted);
   settings.value().incarnation = participant.value()->self();
   ClockCore core(settings.value());

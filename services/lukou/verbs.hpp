@@ -20,5 +20,9 @@ Action add_algorithms(CLI::App& app);
 Action add_new(CLI::App& app);
 Action add_why(CLI::App& app);
 Action add_plot(CLI::App& app);
+Action add_replay(CLI::App& app);
+Action add_redrive(CLI::App& app);
+Action add_keys(CLI::App& app);
+Action add_leash(CLI::App& app);
 
 }  // namespace lukou

@@ -64,7 +64,7 @@ const std::vector<Exception> kExceptions = {
     {"common/bus/participant.cpp", "environment", "CYCLONEDDS_URI, as every Cyclone program"},
     {"common/scenario/file.cpp", "environment", "LUKOU_SCENARIOS, where shipped scenarios are looked for"},
     {"services/rsu/process/run_rsu.cpp", "environment", "LUKOU_RSU, which RSU a hand-started process is"},
-    {"services/lukou/launch/run_processes.cpp", "environment", "PYTHONPATH, which the RSU's keeps"},
+    {"services/lukou/launch/rsu_child.cpp", "environment", "PYTHONPATH, which the RSU's keeps"},
     {"services/lukou/verb_doctor.cpp", "environment", "says what CYCLONEDDS_URI is set to"},
     {"services/lukou/report/progress.cpp", "environment", "NO_COLOR"},
     {"services/lukou/verb_verify.cpp", "thread", "runs beside each other, to show that they do not disturb"},

@@ -27,9 +27,12 @@ before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'lukou-run-log-'));
   execFileSync(
     lukou,
-    ['run', 'paper', '--mode', 'in-process', '--quiet', '--duration', '120', '--out', join(folder, 'run')].concat(
-      ['--set', 'record.log=FULL', '--set', 'radio.preset=PC5_MODE4'],
-    ),
+    ['run', 'paper', '--mode', 'in-process', '--quiet', '--duration', '120', '--out', join(folder, 'run')].concat([
+      '--set',
+      'record.log=FULL',
+      '--set',
+      'radio.preset=PC5_MODE4',
+    ]),
     { stdio: 'ignore' },
   );
   bytes = readFileSync(join(folder, 'run', 'run.mcap'));
@@ -58,7 +61,9 @@ function decoder(reader) {
 
 /** A table as rows of texts by column. */
 function table(name) {
-  const [head, ...lines] = readFileSync(join(folder, 'run', name), 'utf8').trimEnd().split('\n');
+  const [head, ...lines] = readFileSync(join(folder, 'run', name), 'utf8')
+    .trimEnd()
+    .split('\n');
   const columns = head.split(',');
   return lines.map((line) => Object.fromEntries(line.split(',').map((cell, i) => [columns[i], cell])));
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/core/expected.hpp"
+#include "common/process/run_list.hpp"
 
 namespace lukou::launch {
 
@@ -11,8 +12,8 @@ namespace lukou::launch {
 /// socket, so that two launchers never get the same and the kernel frees it when the launcher dies, however it dies.
 class DomainClaim {
  public:
-  /// The lowest free id in [0, 100]. `run` is published beside it for `lukou ctl list`.
-  static Expected<DomainClaim> lowest_free(const std::string& run);
+  /// The lowest free id in [0, 100]. `run` is published with it for `lukou ctl list`; its domain counts not.
+  static Expected<DomainClaim> lowest_free(process::ListedRun run);
   DomainClaim(DomainClaim&& other) noexcept;
   DomainClaim& operator=(DomainClaim&& other) noexcept;
   ~DomainClaim();

@@ -134,7 +134,7 @@ TEST_F(RunLog, HoldsLessAtLowerLevels) {
   write_log(Level::kSecond);
   RunLogReader seconds = open();
   for (Step step = 0; step < 100; ++step) {
-    const LoggedStep* found = seconds.next().value();
+    LoggedStep* found = seconds.next().value();
     EXPECT_EQ(found->cars, step % 10 == 0) << step;
     EXPECT_EQ(found->traffic.crossed_vehicle, busy(step).crossed_vehicle);
     EXPECT_EQ(found->traffic.air.size(), 0U);
@@ -150,11 +150,22 @@ TEST_F(RunLog, BeginsAtAnyStep) {
   for (const Step step : {0, 1, 19, 20, 57, 99, 3}) {
     log.seek(step);
     EXPECT_EQ(log.next().value()->step, step);
-    const LoggedStep* after = log.next().value();
+    LoggedStep* after = log.next().value();
     EXPECT_EQ(after == nullptr ? 100 : after->step, step + 1);
   }
   log.seek(100);
   EXPECT_EQ(log.next().value(), nullptr);
+}
+
+TEST_F(RunLog, GoesOnWhereItWasWhenItIsMoved) {
+  write_log(Level::kFull);
+  RunLogReader log = open();
+  log.seek(33);
+  EXPECT_EQ(log.next().value()->step, 33);
+  RunLogReader moved(std::move(log));
+  EXPECT_EQ(moved.next().value()->step, 34);
+  moved = open();
+  EXPECT_EQ(moved.next().value()->step, 0);
 }
 
 TEST_F(RunLog, OfARecorderThatWasKilledGoesToItsLastWholeChunk) {
