@@ -15,7 +15,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   const std::vector<Action (*)(CLI::App&)> verbs = {add_run,     add_verify,     add_validate, add_inspect, add_ctl,
                                                     add_doctor,  add_algorithms, add_new,      add_why,     add_replay,
-                                                    add_redrive, add_keys,       add_leash,    add_plot};
+                                                    add_redrive, add_keys,       add_leash,    add_plot,    add_report};
   std::vector<std::pair<CLI::App*, Action>> actions;
   for (const auto add : verbs) {
     Action action = add(app);

@@ -58,7 +58,8 @@ figure::Figure densities(const Delays& delays, Language language) {
     figure.layers.push_back(
         figure::Line{.name = kNames[group]->in(language) + Words{", mean ", "，均值 "}.in(language) + mean_s + " s",
                      .points = histogram_like(values, bins).outline(values.size()),
-                     .look = kLooks[group]});
+                     .look = kLooks[group],
+                     .steps = true});
   }
   for (std::size_t group = 1; group < kGroups; ++group) {
     if (delays.by_group[group].empty()) continue;

@@ -88,7 +88,8 @@ figure::Figure distribution(const Fuel& fuel, Language language) {
     figure.layers.push_back(figure::Line{
         .name = kNames[group]->in(language) + Words{", mean ", "，均值 "}.in(language) + fixed(mean(values), 1) + " mL",
         .points = histogram_like(values, bins).outline(values.size()),
-        .look = kLooks[group]});
+        .look = kLooks[group],
+        .steps = true});
   }
   return figure;
 }

@@ -51,9 +51,8 @@ std::vector<figure::Point> Histogram::outline(std::size_t of) const {
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double share = of == 0 ? 0.0 : static_cast<double>(counts[i]) / static_cast<double>(of);
     points.push_back({from + static_cast<double>(i) * width, share});
-    points.push_back({from + static_cast<double>(i + 1) * width, share});
   }
-  points.push_back({points.back().x, 0.0});
+  points.push_back({to(), 0.0});
   return points;
 }
 

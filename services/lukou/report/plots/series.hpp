@@ -39,7 +39,7 @@ struct Histogram {
   std::vector<std::size_t> counts;
 
   [[nodiscard]] double to() const { return from + width * static_cast<double>(counts.size()); }
-  /// Share of the values in a bin, as an outline of steps; over `of` values.
+  /// Share of the values in each bin over `of`, for a line of steps.
   [[nodiscard]] std::vector<figure::Point> outline(std::size_t of) const;
 };
 /// Bins of a readable width, about `bins` over the range of `values`. Requires values.
