@@ -89,6 +89,36 @@ export class Plot {
     if (newest >= 0 && this.plot.cursor.idx == null) this.plot.setLegend({ idx: newest });
   }
 
+  /** What the mouse does, by keyboard: arrows move the crosshair, + and - zoom there, Home shows all. False: not a key of these. */
+  key(key: string): boolean {
+    const { plot } = this;
+    const { left: edge, top, width } = plot.over.getBoundingClientRect();
+    const left = plot.cursor.left ?? -1;
+    const at = left >= 0 ? left : width;
+    const by = key === 'ArrowLeft' ? -1 : key === 'ArrowRight' ? 1 : 0;
+    if (by !== 0) {
+      // As the mouse: so the other charts of the group follow.
+      const to = Math.min(width - 1, Math.max(0, at + (by * width) / 40));
+      plot.over.dispatchEvent(new MouseEvent('mousemove', { clientX: edge + to, clientY: top + 10 }));
+    } else if (key === '+' || key === '=') this.zoom(at / width, 0.5);
+    else if (key === '-') this.zoom(at / width, 2);
+    else if (key === 'Home') plot.setData(plot.data, true);
+    else return false;
+    return true;
+  }
+
+  private zoom(share: number, factor: number): void {
+    const { data, scales } = this.plot;
+    const { min, max } = scales.x;
+    if (min == null || max == null || data[0].length < 2) return;
+    const held = min + (max - min) * share;
+    const first = data[0][0];
+    const last = data[0][data[0].length - 1];
+    const from = Math.max(first, held - (held - min) * factor);
+    const to = Math.min(last, held + (max - held) * factor);
+    if (to > from) this.plot.setScale('x', { min: from, max: to });
+  }
+
   destroy(): void {
     this.sizes.disconnect();
     this.plot.destroy();
