@@ -33,7 +33,8 @@ int report_run(const ReportArguments& arguments) {
   if (!page) return report_errors(page.error());
   // In the result folder it is what the folder says of itself, and made anew; elsewhere nothing is replaced.
   const bool inside = arguments.out.empty();
-  const std::filesystem::path out = inside ? result.value().folder() / results::kReportPage : arguments.out;
+  const std::filesystem::path out =
+      inside ? result.value().folder() / results::kReportPage : std::filesystem::path(arguments.out);
   const auto written = inside ? results::write_file(out, page.value()) : report::write_new_file(out, page.value());
   if (!written) return report_output_error(written.error());
   std::fprintf(stderr, "%s\n", out.c_str());

@@ -126,7 +126,7 @@ std::string warnings_section(const Result& result) {
                           "运行中曾由操作员修改；上述场景为开始时的状态。"}));
   }
   for (const std::string& warning : scenario::warnings(result.scenario())) {
-    known.push_back(element("span", escaped(warning), "lang=\"en\""));
+    known.push_back(element("span", escaped(warning), "class=\"said\" lang=\"en\""));
   }
   const auto section = [](const Words& title, const char* kind, const std::vector<std::string>& items) {
     if (items.empty()) return std::string();

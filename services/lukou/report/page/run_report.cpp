@@ -8,6 +8,7 @@
 #include "services/lukou/report/page/html.hpp"
 #include "services/lukou/report/page/run_facts.hpp"
 #include "services/lukou/report/plots/plot.hpp"
+#include "services/lukou/report/plots/series.hpp"
 
 namespace lukou::report {
 namespace {
@@ -42,6 +43,12 @@ std::string undrawn(const Plot& plot, const Error& error) {
          element("p", html::escaped(error.text()), "class=\"muted\" lang=\"en\"");
 }
 
+/// A run that ended within its warm-up is shown from its beginning: there is nothing else.
+PlotOptions options_of(const Plot& plot, const Result& result) {
+  const bool warm = warmup_s(result) < end_s(result);
+  return {.from_s = plot.takes_window && !warm ? std::optional(0.0) : std::nullopt};
+}
+
 /// "none7200" of "/some/where/none7200/"
 std::string name_of(const std::filesystem::path& folder) {
   const auto whole = std::filesystem::absolute(folder).lexically_normal();
@@ -62,7 +69,7 @@ Expected<std::string> run_report(const Result& result, const ChartCode& code, La
   Json charts = Json::object();
   for (const Plot& plot : plots()) {
     std::string content = element("h2", both(plot.title));
-    const auto drawing = draw(plot.name, result, {});
+    const auto drawing = draw(plot.name, result, options_of(plot, result));
     if (drawing) {
       const Panels english = drawing.value()(Language::kEnglish);
       const Panels chinese = drawing.value()(Language::kChinese);
