@@ -62,6 +62,11 @@ Expected<Result> Result::open(const fs::path& folder) {
   return result;
 }
 
+std::string Result::name() const {
+  const fs::path whole = fs::absolute(folder_).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
 bool Result::holds(std::string_view file) const { return is_file(folder_ / file); }
 
 Expected<const nlohmann::ordered_json*> Result::need_summary() const {

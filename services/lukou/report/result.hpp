@@ -25,6 +25,8 @@ class Result {
   ~Result();
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// "none7200" of "/some/where/none7200/".
+  [[nodiscard]] std::string name() const;
   [[nodiscard]] const scenario::Resolved& scenario() const { return scenario_; }
   [[nodiscard]] const std::optional<results::Manifest>& manifest() const { return manifest_; }
   /// Null if there is none.

@@ -49,12 +49,6 @@ PlotOptions options_of(const Plot& plot, const Result& result) {
   return {.from_s = plot.takes_window && !warm ? std::optional(0.0) : std::nullopt};
 }
 
-/// "none7200" of "/some/where/none7200/"
-std::string name_of(const std::filesystem::path& folder) {
-  const auto whole = std::filesystem::absolute(folder).lexically_normal();
-  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-}
-
 }  // namespace
 
 ChartCode load_chart_code(const std::filesystem::path& folder) {
@@ -62,7 +56,7 @@ ChartCode load_chart_code(const std::filesystem::path& folder) {
 }
 
 Expected<std::string> run_report(const Result& result, const ChartCode& code, Language first) {
-  const std::string name = name_of(result.folder());
+  const std::string name = result.name();
   html::Page page{.title = {"Lukou: " + name, "路口仿真：" + name}, .first = first};
   page.head = element("h1", both({"Lukou: run ", "路口仿真：运行 "}) + html::escaped(name)) + "\n";
   page.content = warnings_section(result) + facts_section(result) + summary_section(result);
