@@ -50,7 +50,7 @@ if [ -f "$HOME/.npmrc" ]; then
   { grep -v '^cafile' "$HOME/.npmrc" || true; echo "cafile=/root/certificates.pem"; } > "$work/npmrc"
   way=(--volume "$work/npmrc:/root/.npmrc:ro" --volume /etc/ssl/certs/ca-certificates.crt:/root/certificates.pem:ro)
 fi
-"${store[@]}" bud --pull-never --network host --format docker "${way[@]}" -f docker/Dockerfile -t lukou .
+"${store[@]}" bud --layers --pull-never --network host --format docker "${way[@]}" -f docker/Dockerfile -t lukou .
 "${store[@]}" images
 python3 tests/containers/smoke.py docker/compose.yaml -- "${store[@]}"
 python3 tests/containers/smoke.py docker/compose.yaml --profile three -- "${store[@]}"

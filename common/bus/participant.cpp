@@ -283,8 +283,29 @@ std::set<Incarnation> Writer<Batch>::matched() const {
   return matched_with(entity_, dds_get_matched_subscriptions, dds_get_matched_subscription_data);
 }
 
+/// Where Cyclone puts what a reader takes. Kept from take to take, so that sequences keep their storage; what Cyclone
+/// lends it allocates and frees anew for each sample.
 template <class Batch>
-Reader<Batch>::Reader(Participant& participant) : participant_(participant) {
+struct Reader<Batch>::Landing {
+  static constexpr std::size_t kMost = 16;
+  std::array<typename TopicOf<Batch>::Sample, kMost> samples{};
+  std::array<void*, kMost> places{};
+
+  Landing() {
+    for (std::size_t i = 0; i < kMost; ++i) places[i] = &samples[i];
+  }
+  Landing(const Landing&) = delete;
+  Landing& operator=(const Landing&) = delete;
+  ~Landing() {
+    for (auto& sample : samples) dds_sample_free(&sample, TopicOf<Batch>::descriptor(), DDS_FREE_CONTENTS);
+  }
+};
+
+template <class Batch>
+Reader<Batch>::~Reader() = default;
+
+template <class Batch>
+Reader<Batch>::Reader(Participant& participant) : participant_(participant), landing_(std::make_unique<Landing>()) {
   auto& entities = participant_.entities();
   const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities.self, entities.silence);
   entity_ = made(dds_create_reader(entities.participant, topic_of<Batch>(entities), qos.get(), nullptr),
@@ -295,16 +316,15 @@ Reader<Batch>::Reader(Participant& participant) : participant_(participant) {
 
 template <class Batch>
 void Reader<Batch>::take(const std::function<void(Batch&, const SampleInfo&)>& receive) {
-  constexpr std::size_t kMost = 16;
-  std::array<void*, kMost> samples{};
+  constexpr std::size_t kMost = Landing::kMost;
   std::array<dds_sample_info_t, kMost> infos{};
   // A producer's death is told after all that it said: its last samples may still be here when it is gone already.
   std::set<Incarnation> dead;
   for (bool more = true; more;) {
-    const dds_return_t count = dds_take(entity_, samples.data(), infos.data(), kMost, kMost);
+    const dds_return_t count = dds_take(entity_, landing_->places.data(), infos.data(), kMost, kMost);
     if (count <= 0) break;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto& sample = *static_cast<const typename TopicOf<Batch>::Sample*>(samples[i]);
+      const auto& sample = landing_->samples[i];
       const SampleInfo info = info_of(sample);
       if (infos[i].valid_data) {
         copy(sample, scratch_);
@@ -312,9 +332,7 @@ void Reader<Batch>::take(const std::function<void(Batch&, const SampleInfo&)>& r
       }
       if (infos[i].instance_state != DDS_IST_ALIVE) dead.insert(info.producer);
     }
-    dds_return_loan(entity_, samples.data(), count);
     more = static_cast<std::size_t>(count) == kMost;
-    samples.fill(nullptr);
   }
   for (const Incarnation producer : dead) {
     scratch_ = Batch{};

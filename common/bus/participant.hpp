@@ -85,13 +85,19 @@ template <class Batch>
 class Reader {
  public:
   explicit Reader(Participant& participant);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
   /// Hands over everything that has come in, in order; the batch may be moved or swapped from.
   void take(const std::function<void(Batch&, const SampleInfo&)>& receive);
   [[nodiscard]] std::set<Incarnation> matched() const;
 
  private:
+  struct Landing;
+
   Participant& participant_;
   std::int32_t entity_ = 0;
+  std::unique_ptr<Landing> landing_;
   Batch scratch_{};
 };
 

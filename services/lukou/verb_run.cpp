@@ -59,12 +59,20 @@ Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved sc
 }
 
 /// Hosts and keys, checked. Says which keys expire soon.
-Expected<launch::Reach> reach_of(const RunArguments& arguments, const scenario::Resolved& scenario) {
+Expected<launch::Reach> reach_of(const RunArguments& arguments, const scenario::Resolved& scenario,
+                                 const RsuOptions& rsu_options) {
   const std::uint32_t rsus = scenario::protocol(scenario).rsus;
   launch::Reach reach{.peers = arguments.peers};
   auto prefixes = launch::prefixes(arguments.prefixes, rsus);
   if (!prefixes) return prefixes.error();
   reach.prefix_of = std::move(prefixes).value();
+  for (std::uint32_t rsu = 0; rsu < rsus; ++rsu) {
+    const auto own = rsu_options.of.find(rsu);
+    const bool waits = (own == rsu_options.of.end() ? rsu_options.all : own->second) == "wait";
+    if (waits && reach.prefix_of.contains(rsu_role(rsu))) {
+      return Error{"--prefix " + rsu_role(rsu), "nobody starts this RSU: --rsu wait"};
+    }
+  }
   if (arguments.keys.empty()) return reach;
   reach.keys = std::filesystem::absolute(arguments.keys);
   const auto warnings = keys::check(reach.keys, rsus);
@@ -167,7 +175,7 @@ int run(RunArguments arguments) {
                           "takes neither --rsu nor --wait, --console, --secure, --peers or --prefix: there are no "
                           "processes to talk to"});
   }
-  const auto reach = reach_of(arguments, scenario.value());
+  const auto reach = reach_of(arguments, scenario.value(), rsus.value());
   if (!reach) return report_errors(reach.error());
   process::catch_stop_signals();
   if (arguments.console != 0) {

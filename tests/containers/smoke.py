@@ -60,7 +60,8 @@ class Smoke:
             subprocess.run(["ip", "-n", netns, "link", "set", "lo", "up"], check=True)
         return netns
 
-    def command(self, name, words):
+    def command(self, name, words, container=None):
+        """`words` in this container, with all that belongs to the service `name`."""
         service = self.services[name]
         mode = service.get("network_mode", "")
         network = self.network(mode.removeprefix("service:") if mode.startswith("service:") else name)
@@ -71,7 +72,7 @@ class Smoke:
             run += ["--volume", f"{path}:{target}"]
         for key, value in service.get("environment", {}).items():
             run += ["--env", f"{key}={value}"]
-        return [*run, self.containers[name], "--", *words]
+        return [*run, container or self.containers[name], "--", *words]
 
     def start(self, name):
         service = self.services[name]
@@ -93,7 +94,8 @@ class Smoke:
     def healthy(self, name):
         test = self.services[name]["healthcheck"]["test"]
         words = ["/bin/sh", "-c", test[1]] if test[0] == "CMD-SHELL" else test[1:]
-        return subprocess.run(self.command(name, words), capture_output=True).returncode == 0
+        # In a container of its own: buildah runs one command at a time in each.
+        return subprocess.run(self.command(name, words, self.containers["probe"]), capture_output=True).returncode == 0
 
     def in_container(self, name, *words):
         return subprocess.run(self.command(name, list(words)), check=True, text=True, capture_output=True).stdout
@@ -160,6 +162,7 @@ def main():
             for name in smoke.services:
                 smoke.wait(name)
 
+            print(f"{len(smoke.services)} containers ran, their health checks answered: {', '.join(clocks)}")
             smoke.services["probe"] = {"volumes": ["results:/results"]}
             results = os.path.join(folder, "results")
             for run in sorted(set(os.listdir(results)) - {"demo"}):

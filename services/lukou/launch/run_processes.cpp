@@ -243,7 +243,8 @@ class Session {
       if (lost.role == culprit_) text_ = lost.text();
     end.culprit = culprit_;
     end.text = text_;
-    end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : process::wall_s());
+    // A short run may be over before the clock is heard here.
+    end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : begun_s_);
     end.start_up_s = running_s_ != 0.0 ? running_s_ - begun_s_ : 0.0;
     RunReport report = finish_result(request_, folder_, end);
     report.restart = restart_;
