@@ -104,4 +104,9 @@ int report_errors(const Error& error) {
   return process::kExitUsage;
 }
 
+int report_output_error(const Error& error) {
+  std::fprintf(stderr, "%s\n", error.text().c_str());
+  return process::kExitIo;
+}
+
 }  // namespace lukou

@@ -31,5 +31,7 @@ Expected<scenario::Resolved> load(const ScenarioArguments& arguments);
 
 /// Prints the errors, one a line, and returns the exit code for a usage or scenario error.
 int report_errors(const Error& error);
+/// The same for output that could not be written.
+int report_output_error(const Error& error);
 
 }  // namespace lukou
