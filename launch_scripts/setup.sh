@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 packages=(g++ make cmake ninja-build ccache cyclonedds-dev cyclonedds-tools libprotobuf-dev protobuf-compiler libspdlog-dev
-          libcli11-dev nlohmann-json3-dev libssl-dev librandom123-dev pybind11-dev python3-dev python3-numpy libboost1.81-dev libgtest-dev librapidcheck-dev libbenchmark-dev)
+          libcli11-dev nlohmann-json3-dev libssl-dev librandom123-dev pybind11-dev python3-dev python3-numpy libboost1.81-dev libsqlite3-dev libgtest-dev librapidcheck-dev libbenchmark-dev)
 # The console's page is built with npm: a package of its own in Debian, inside nodejs elsewhere.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

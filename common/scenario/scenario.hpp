@@ -114,6 +114,8 @@ std::vector<std::string> warnings(const Resolved& scenario);
 /// What each roadside sensor watches and how well, one a line; begins with its path.
 std::vector<std::string> sensor_lines(const Resolved& scenario);
 
+/// Cars that a lane lets go in an hour of green (study of the model, 10: headway 1.997 s).
+inline constexpr double kSaturationFlow_veh_per_h = 1803.0;
 /// Capacity of an approach under a plan [veh/h]: the flow at which its first lane is saturated.
 /// `shares` are the relative weights of the left, centre and right lane, not all 0.
 double capacity_veh_per_h(const lukou::SignalPlan& plan, Approach approach,

@@ -13,8 +13,9 @@ int run(int argc, char** argv) {
   CLI::App app("Lukou: one signalised intersection under vehicle-road cooperation, as processes on a bus");
   app.set_version_flag("--version", std::string(version()));
   app.require_subcommand(1);
-  const std::array<Action (*)(CLI::App&), 9> verbs = {add_run,    add_verify,     add_validate, add_inspect, add_ctl,
-                                                      add_doctor, add_algorithms, add_new,      add_why};
+  const std::array<Action (*)(CLI::App&), 11> verbs = {add_run, add_verify, add_validate,   add_inspect,
+                                                       add_ctl, add_doctor, add_algorithms, add_new,
+                                                       add_why, add_sweep,  add_report};
   std::vector<std::pair<CLI::App*, Action>> actions;
   for (const auto add : verbs) {
     Action action = add(app);

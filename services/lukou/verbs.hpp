@@ -19,5 +19,7 @@ Action add_doctor(CLI::App& app);
 Action add_algorithms(CLI::App& app);
 Action add_new(CLI::App& app);
 Action add_why(CLI::App& app);
+Action add_sweep(CLI::App& app);
+Action add_report(CLI::App& app);
 
 }  // namespace lukou

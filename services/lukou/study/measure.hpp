@@ -7,7 +7,10 @@
 
 namespace lukou::studies {
 
-/// A number of summary.json that a study asks for.
+/// The one measure that does not stand in summary.json: settling_time_s() of the run's series.
+inline constexpr const char* kSettlingTime = "settling_time_s";
+
+/// A number that a study asks for, mostly of summary.json.
 struct Measure {
   std::string path;   ///< "equipped.mean_delay_s"
   std::string label;  ///< "mean delay, equipped"
@@ -17,7 +20,7 @@ struct Measure {
 
 Measure measure_of(const std::string& path);
 
-/// Every number that a summary may hold, in its order.
+/// Every number that a summary may hold, in its order, and the settling time.
 std::vector<std::string> known_measures();
 /// What a study asks for that does not say.
 std::vector<std::string> default_measures();

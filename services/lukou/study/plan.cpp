@@ -87,6 +87,21 @@ Plan plan_of(const Study& study) {
   return plan;
 }
 
+std::size_t cell_at(const Study& study, std::size_t grid, const std::vector<std::size_t>& levels) {
+  const auto cells_of = [](const Grid& of) {
+    std::size_t cells = 1;
+    for (const Factor& factor : of.factors) cells *= factor.levels.size();
+    return cells;
+  };
+  std::size_t before = 0;
+  for (std::size_t g = 0; g < grid; ++g) before += cells_of(study.grids[g]);
+  std::size_t within = 0;
+  for (std::size_t f = 0; f < levels.size(); ++f) {
+    within = within * study.grids[grid].factors[f].levels.size() + levels[f];
+  }
+  return before + within;
+}
+
 Expected<scenario::Resolved> scenario_of(const Study& study, const Point& point, std::uint64_t seed) {
   Sets sets = sets_of(study, point);
   const std::string of_seed = "run.seed=" + std::to_string(seed);

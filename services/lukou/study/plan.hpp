@@ -40,6 +40,9 @@ struct Plan {
 /// Everything that a study asks for, but for the seeds.
 Plan plan_of(const Study& study);
 
+/// Number of the cell of a grid at these levels, by factor.
+std::size_t cell_at(const Study& study, std::size_t grid, const std::vector<std::size_t>& levels);
+
 /// The scenario of a point with a seed, or what is wrong with it.
 Expected<scenario::Resolved> scenario_of(const Study& study, const Point& point, std::uint64_t seed);
 
