@@ -117,14 +117,18 @@ class Map {
     return figure;
   }
 
-  /// Every quarter that lies inside.
+  /// Lines at round gains.
   static Contours contours(const Cells& cells) {
     Contours contours{.values = cells.values, .unit = " %"};
     for (std::size_t i = 0; i + 1 < cells.x_edges.size(); ++i) contours.x.push_back(static_cast<double>(i));
     for (std::size_t i = 0; i + 1 < cells.y_edges.size(); ++i) contours.y.push_back(static_cast<double>(i));
     const double step = figure::nice_step((cells.scale.max - cells.scale.min) / 5.0);
-    for (double level = std::ceil(cells.scale.min / step) * step + step; level < cells.scale.max; level += step) {
-      if (std::abs(level) > step / 2.0) contours.levels.push_back(level);
+    const auto last = static_cast<int>(std::floor(cells.scale.max / step));
+    for (auto i = static_cast<int>(std::ceil(cells.scale.min / step)); i <= last; ++i) {
+      const double level = i * step;
+      // The line of no gain is drawn where there is loss, too; not through noise around 0.
+      const bool drawn = i != 0 || cells.scale.min <= -step;
+      if (drawn && level > cells.scale.min && level < cells.scale.max) contours.levels.push_back(level);
     }
     return contours;
   }

@@ -13,6 +13,8 @@ namespace {
 
 using boost::math::students_t;
 
+constexpr double kRounding = 1e-9;
+
 double mean_of(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
@@ -63,8 +65,11 @@ Estimate estimate(std::span<const double> values, double confidence) {
   return result;
 }
 
-PairedComparison compare(std::span<const double> arm, std::span<const double> baseline, double confidence) {
-  LUKOU_EXPECT(!arm.empty() && arm.size() == baseline.size());
+PairedComparison compare(std::span<const double> as_measured, std::span<const double> baseline, double confidence) {
+  LUKOU_EXPECT(!as_measured.empty() && as_measured.size() == baseline.size());
+  std::vector<double> arm(as_measured.begin(), as_measured.end());
+  for (std::size_t i = 0; i < arm.size(); ++i)
+    if (std::abs(arm[i] - baseline[i]) <= kRounding * std::abs(baseline[i])) arm[i] = baseline[i];
   std::vector<double> differences;
   for (std::size_t i = 0; i < arm.size(); ++i) differences.push_back(arm[i] - baseline[i]);
   PairedComparison result;

@@ -58,6 +58,13 @@ TEST(Compare, TakesRunsThatAreEqualToTheLastDigitForNoDifference) {
   EXPECT_DOUBLE_EQ(*found.reduction->half_width, 0.0);
 }
 
+TEST(Compare, TakesTheSameSumInAnotherOrderForEqual) {
+  const Values baseline = {6.8, 6.9, 7.1};
+  const Values arm = {6.8 + 1e-14, 6.9 + 1e-14, 7.1 + 2e-14};
+  EXPECT_EQ(compare(arm, baseline, 0.95).p, 1.0);
+  EXPECT_EQ(compare(arm, baseline, 0.95).difference.mean, 0.0);
+}
+
 TEST(Compare, HasTheTwoSidedTailOfStudentAsItsP) {
   // t = mean / (s / sqrt(n)) = 2.776, the quantile of 4 degrees: p = 0.05. Differences -d..d around m have s = d
   // sqrt(2.5).
