@@ -7,6 +7,7 @@
 #include "services/lukou/report/output_file.hpp"
 #include "services/lukou/report/page/run_report.hpp"
 #include "services/lukou/scenario_arguments.hpp"
+#include "services/lukou/study/sweep.hpp"
 #include "services/lukou/verbs.hpp"
 
 namespace lukou {
@@ -17,6 +18,23 @@ struct ReportArguments {
   std::string out;  ///< empty: in the result folder
   std::string language = "en";
 };
+
+/// Judges a study's runs anew: study.sqlite, CSV, pictures, report.html.
+int report_study(const std::string& folder) {
+  const auto opened = studies::StudyFolder::open(folder);
+  if (!opened) return report_errors(opened.error());
+  const auto outcome = studies::write_report(opened.value());
+  if (!outcome) {
+    std::fprintf(stderr, "%s\n", outcome.error().text().c_str());
+    return process::kExitIo;
+  }
+  for (const studies::Sentence& warning : outcome.value().warnings) {
+    std::fprintf(stderr, "warning: %s\n", warning.text.c_str());
+  }
+  const auto page = opened.value().path() / "report.html";
+  std::fprintf(stderr, "%s\n", page.c_str());
+  return process::kExitDone;
+}
 
 int report_run(const ReportArguments& arguments) {
   const auto result = report::Result::open(arguments.folder);
@@ -44,13 +62,16 @@ int report_run(const ReportArguments& arguments) {
 }  // namespace
 
 Action add_report(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("report", "a result folder as one HTML file, with all figures");
+  CLI::App* verb = app.add_subcommand("report", "a result folder, or a study's, as one HTML file, with all figures");
   auto arguments = std::make_shared<ReportArguments>();
-  verb->add_option("result", arguments->folder, "result folder")->required();
+  verb->add_option("result", arguments->folder, "result folder, or folder of a study")->required();
   verb->add_option("--out", arguments->out, "file to write; default report.html in the result folder");
   verb->add_option("--lang", arguments->language, "language that it opens in: en or zh; it holds both")
       ->check(CLI::IsMember({"en", "zh"}));
-  return [arguments] { return report_run(*arguments); };
+  return [arguments] {
+    const bool study = studies::StudyFolder::is_one(arguments->folder);
+    return study ? report_study(arguments->folder) : report_run(*arguments);
+  };
 }
 
 }  // namespace lukou
