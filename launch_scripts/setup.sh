@@ -15,7 +15,7 @@ tier=${1:-}
 case "$tier" in
   "" ) ;;
   --tests ) packages+=(clang-format-19 chromium fonts-wqy-zenhei) ;;
-  --full ) packages+=(clang-format-19 clang-tidy-19 time chromium fonts-wqy-zenhei) ;;
+  --full ) packages+=(clang-format-19 clang-tidy-19 time chromium fonts-wqy-zenhei slurm-wlm munge iproute2) ;;
   * ) echo "setup.sh: unknown argument $tier; use --tests or --full" >&2; exit 2 ;;
 esac
 
