@@ -18,7 +18,7 @@ case "$tier" in
   --tests ) packages+=(clang-format-19 chromium fonts-wqy-zenhei) ;;
   --bench ) packages+=(sumo) ;;
   --full ) packages+=(clang-format-19 clang-tidy-19 time chromium fonts-wqy-zenhei
-                      iproute2 nftables openssh-client faketime sumo) ;;
+                      iproute2 nftables openssh-client faketime sumo slurm-wlm munge) ;;
   * ) echo "setup.sh: unknown argument $tier; use --tests, --bench or --full" >&2; exit 2 ;;
 esac
 
