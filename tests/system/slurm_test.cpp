@@ -45,7 +45,8 @@ class Slurm : public testing::Test {
     setenv("SLURM_CONF", (cluster_ / "slurm.conf").c_str(), 1);
   }
   void TearDown() override {
-    if (started_) EXPECT_EQ(std::system((kCluster + " stop " + cluster_.string()).c_str()), 0);
+    if (!started_) return;
+    EXPECT_EQ(std::system((kCluster + " stop " + cluster_.string()).c_str()), 0);
   }
 
   TemporaryFolder folder_;
