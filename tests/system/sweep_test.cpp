@@ -230,7 +230,7 @@ TEST_F(Sweep, AddsSeedsUntilTheMeanIsPreciseEnough) {
   const std::string base =
       "scenario: \"paper\"\nset: \"run.duration_s=200\"\nset: \"run.warmup_s=60\"\n"
       "set: \"vehicles.equipped_ratio=0\"\nmeasures: \"mean_delay_s\"\n";
-  write(file_, base + "seeds { count: 3 }\nprecision { measure: \"mean_delay_s\" half_width: 0.08 at_most: 40 }\n");
+  write(file_, base + "seeds { count: 3 }\nprecision { measure: \"mean_delay_s\" half_width: 0.04 at_most: 40 }\n");
   const fs::path out = folder_ / "precise";
   ASSERT_EQ(lukou(arguments(out)).code, 0);
   const std::size_t runs = markers_in(out);
@@ -291,7 +291,7 @@ TEST_F(Sweep, ReportIsTheSameHoweverOftenItIsMade) {
   EXPECT_EQ(content(out / "runs.csv"), runs);
   const Finished no_study = lukou({"report", (out / "runs").string()});
   EXPECT_EQ(no_study.code, 2);
-  EXPECT_NE(no_study.err.find("is no study's folder"), std::string::npos);
+  EXPECT_NE(no_study.err.find("is no result folder"), std::string::npos);
 }
 
 }  // namespace
