@@ -39,8 +39,8 @@ struct PairedComparison {
   /// none if the baseline's mean is 0.
   std::optional<Estimate> reduction;
 };
-/// Pairs are of the same index. Requires equally many on both sides, at least one. Values that differ by less than 1e-9 of
-/// their size are the same sum taken in another order: they count as equal.
+/// Pairs are of the same index. Requires equally many on both sides, at least one. Values that differ by less than 1e-9
+/// of their size are the same sum taken in another order: they count as equal.
 PairedComparison compare(std::span<const double> arm, std::span<const double> baseline, double confidence);
 
 /// How an arm does against a baseline on other seeds: Welch's test. Requires at least two values on both sides.

@@ -34,7 +34,7 @@ export const SENTENCES: readonly (readonly [english: string, chinese: string])[]
     '本次运行将在第 {n} 步重放一项修改；此后才接受其他修改',
   ],
   ['left before the end of the run', '在运行结束前离开'],
-  ['is gone: its process ended or does not run any more', '已失联：其进程已结束或不再运行'],
+  ['is gone: its process ended, stands still or cannot be reached', '已失联：其进程已结束、停滞或无法连接'],
   ['did not join within {n} s (missing: {who})', '{n} 秒内未加入（缺少：{who}）'],
   ['has not finished step {n} for {s} s', '第 {n} 步已 {s} 秒未完成'],
   ['no participant makes progress and none says why', '没有进程在推进，也没有进程说明原因'],
