@@ -19,8 +19,8 @@ DURATION_S = 300
 SETS = ["record.log=FULL", "record.guidance=true", "radio.preset=PC5_MODE4", "run.warmup_s=60", "vehicles.equipped_ratio=0.4"]
 
 
-def lukou(*arguments, check=True):
-    done = subprocess.run([LUKOU, *map(str, arguments)], capture_output=True, text=True)
+def lukou(*arguments, check=True, cwd=None):
+    done = subprocess.run([LUKOU, *map(str, arguments)], capture_output=True, text=True, cwd=cwd)
     if check and done.returncode != 0:
         raise AssertionError(f"{arguments}: exit code {done.returncode}\n{done.stderr}")
     return done
@@ -53,6 +53,20 @@ class Exports(unittest.TestCase):
 
     def at(self, time_s):
         return [row for row in self.trajectories if float(row["time_s"]) == time_s]
+
+    def test_a_name_without_a_folder_is_written_here(self):
+        for arguments, name in [
+            (("plot", self.result, "--figure", "stop-time"), "stop-time.svg"),
+            (("plot", self.result, "--figure", "delay", "--out", "figure.svg"), "figure.svg"),
+            (("export", self.result, "--format", "sqlite", "--what", "cars", "--out", "cars.sqlite"), "cars.sqlite"),
+            (("report", self.result, "--out", "page.html"), "page.html"),
+        ]:
+            with self.subTest(arguments=arguments):
+                lukou(*arguments, cwd=self.folder)
+                self.assertGreater((self.folder / name).stat().st_size, 0)
+        drawn = xml.etree.ElementTree.parse(self.folder / "figure.svg").getroot()
+        self.assertEqual(drawn.tag, "{http://www.w3.org/2000/svg}svg")
+        self.assertEqual(lukou("plot", self.result, "--figure", "stop-time", cwd=self.folder, check=False).returncode, 5)
 
     def test_the_example_recomputes_the_summary_from_csv_alone(self):
         example = ROOT / "docs/examples/measures.py"

@@ -26,8 +26,9 @@ Error taken(const fs::path& path) { return Error{path.string(), "exists already;
 }  // namespace
 
 Expected<OutputFile> OutputFile::create(const fs::path& file) {
-  std::error_code code;
+  std::error_code code;  // says that there is no such file: that is well
   if (fs::exists(fs::symlink_status(file, code))) return taken(file);
+  code.clear();
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), code);
   if (code) return Error{file.parent_path().string(), "cannot be created: " + code.message()};
   fs::path unfinished = file;
