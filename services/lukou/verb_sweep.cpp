@@ -7,6 +7,7 @@
 
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
+#include "services/lukou/launch/cores.hpp"
 #include "services/lukou/report/progress.hpp"
 #include "services/lukou/scenario_arguments.hpp"
 #include "services/lukou/study/disk_budget.hpp"
@@ -145,7 +146,7 @@ class RoundProgress {
 /// Makes runs on this computer.
 studies::MakeRuns made_here(const SweepArguments& arguments) {
   return [&arguments](const studies::StudyFolder& folder, const std::vector<studies::RunKey>& runs) -> Expected<int> {
-    const int cores = static_cast<int>(studies::usable_cores().size());
+    const int cores = static_cast<int>(launch::usable_cores().size());
     const int jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, cores);
     std::string room;
     if (auto fits = studies::check_disk(folder, runs, jobs, room); !fits) return fits.error();

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "services/lukou/launch/cores.hpp"
 #include "tests/benchmark/figures.hpp"
 #include "tests/benchmark/speed_runs.hpp"
 #include "tests/benchmark/speed_table.hpp"
@@ -32,8 +33,8 @@ void print_machine(double duration_s) {
     if (line.rfind("model name", 0) == 0) name = line.substr(line.find(':') + 2);
   std::array<double, 1> load{};
   if (getloadavg(load.data(), 1) != 1) load[0] = -1.0;
-  std::printf("%s, %zu cores, load at the start %.2f; runs of %.0f s simulated\n", name.c_str(), usable_cores().size(),
-              load[0], duration_s);
+  std::printf("%s, %zu cores, load at the start %.2f; runs of %.0f s simulated\n", name.c_str(),
+              lukou::launch::usable_cores().size(), load[0], duration_s);
 }
 
 /// What is measured in turns.
@@ -122,7 +123,7 @@ class Turns {
   static void say(const std::string& what) { std::fprintf(stderr, "run_speed: %s\n", what.c_str()); }
 
   double duration_s_;
-  std::vector<int> cores_ = usable_cores();
+  std::vector<int> cores_ = lukou::launch::usable_cores();
   int core_ = cores_.back();
   TemporaryFolder folder_;
   std::string keys_ = folder_ / "keys";
@@ -196,7 +197,8 @@ int main(int argc, char** argv) {
   }
   print_machine(duration_s);
   Turns turns(duration_s);
-  if (turns.cores() > 1) stay_on(usable_cores().front());
+  // Not to disturb what it measures on another core.
+  if (turns.cores() > 1) lukou::launch::stay_on(lukou::launch::usable_cores().front());
   for (int i = 0; i < repeats; ++i) turns.turn();
   const Line line = cost_of_vehicles(3.0 * duration_s, turns.core());
   SpeedTable table(repeats);

@@ -1,7 +1,5 @@
 #include "tests/benchmark/speed_runs.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -56,22 +54,6 @@ class Memory {
 };
 
 }  // namespace
-
-std::vector<int> usable_cores() {
-  cpu_set_t ours;
-  std::vector<int> cores;
-  if (sched_getaffinity(0, sizeof ours, &ours) != 0) return cores;
-  for (int core = 0; core < CPU_SETSIZE; ++core)
-    if (CPU_ISSET(static_cast<unsigned>(core), &ours)) cores.push_back(core);
-  return cores;
-}
-
-void stay_on(int core) {
-  cpu_set_t one;
-  CPU_ZERO(&one);
-  CPU_SET(static_cast<unsigned>(core), &one);
-  sched_setaffinity(0, sizeof one, &one);
-}
 
 std::vector<std::string> speed_arguments(const std::string& mode, double duration_s,
                                          const std::vector<std::string>& more, double flow_veh_per_h) {

@@ -6,11 +6,6 @@
 
 namespace lukou::test {
 
-/// The cores that this program may use, lowest first.
-std::vector<int> usable_cores();
-/// Keeps this program on one core, so that it does not disturb what it measures on another.
-void stay_on(int core);
-
 /// Peak memory by program [kB].
 using Peaks = std::map<std::string, double>;
 

@@ -3,13 +3,21 @@
 #include <algorithm>
 
 #include "common/core/version.hpp"
-#include "services/lukou/study/sqlite.hpp"
+#include "services/lukou/sqlite/writer.hpp"
 
 namespace lukou::studies {
 namespace {
 
 namespace fs = std::filesystem;
 using statistics::Estimate;
+
+template <class T>
+sqlite::Value sql(const std::optional<T>& value) {
+  return value ? sqlite::Value(*value) : sqlite::Value();
+}
+sqlite::Value sql(std::size_t value) { return static_cast<std::int64_t>(value); }
+sqlite::Value sql(int value) { return std::int64_t{value}; }
+sqlite::Value sql(bool value) { return std::int64_t{value ? 1 : 0}; }
 
 constexpr const char* kSchema = R"(
 CREATE TABLE provenance (key TEXT PRIMARY KEY, value TEXT);
@@ -44,11 +52,11 @@ std::string wide_view(const Study& study) {
       factors.push_back(factor.name);
       const std::string column = factor.unit.empty() ? factor.name : factor.name + " [" + factor.unit + "]";
       columns += ", (SELECT coalesce(value, value_text) FROM parameters p WHERE p.point = r.point AND factor = " +
-                 sql_text(factor.name) + ") AS " + sql_name(column);
+                 sqlite::text_literal(factor.name) + ") AS " + sqlite::name_literal(column);
     }
   for (const std::string& measure : study.measures) {
-    columns += ", (SELECT value FROM measures m WHERE m.run = r.run AND measure = " + sql_text(measure) + ") AS " +
-               sql_name(measure);
+    columns += ", (SELECT value FROM measures m WHERE m.run = r.run AND measure = " + sqlite::text_literal(measure) +
+               ") AS " + sqlite::name_literal(measure);
   }
   return "CREATE VIEW results AS SELECT r.run, p.arm, r.seed, r.state" + columns +
          " FROM runs r JOIN points p ON p.point = r.point";
@@ -56,7 +64,7 @@ std::string wide_view(const Study& study) {
 
 class Filler {
  public:
-  Filler(const StudyFolder& folder, const Outcome& outcome, SqliteWriter& database)
+  Filler(const StudyFolder& folder, const Outcome& outcome, sqlite::Writer& database)
       : study_(folder.study()), plan_(folder.plan()), outcome_(outcome), database_(database) {}
 
   void fill() {
@@ -113,7 +121,7 @@ class Filler {
     const std::string state(name(run.state));
     if (!run.has_result()) {
       const bool failed = run.state == RunRecord::State::kFailed;
-      const SqlValue code = failed ? sql(run.exit_code) : SqlValue();
+      const sqlite::Value code = failed ? sql(run.exit_code) : sqlite::Value();
       database_.insert("runs", {id, point.id, seed, state, code, {}, {}, {}, {}});
       return;
     }
@@ -143,15 +151,15 @@ class Filler {
 
   void comparison(const Comparison& found) {
     const auto of_gain = [&](double (Estimate::*end)() const) {
-      return found.gain && found.gain->half_width ? SqlValue(((*found.gain).*end)()) : SqlValue();
+      return found.gain && found.gain->half_width ? sqlite::Value(((*found.gain).*end)()) : sqlite::Value();
     };
-    database_.insert(
-        "comparisons",
-        {sql(found.cell), study_.arms[found.arm].name, study_.measures[found.measure], sql(found.paired.difference.n),
-         found.of_arm.mean, found.of_baseline.mean, found.paired.difference.mean,
-         sql(found.paired.difference.half_width), found.paired.p, found.p_holm, sql(found.comparable),
-         sql(found.significant), found.gain ? SqlValue(found.gain->mean) : SqlValue(), of_gain(&Estimate::low),
-         of_gain(&Estimate::high), sql(found.paired.correlation), sql(found.paired.variance_gain)});
+    database_.insert("comparisons",
+                     {sql(found.cell), study_.arms[found.arm].name, study_.measures[found.measure],
+                      sql(found.paired.difference.n), found.of_arm.mean, found.of_baseline.mean,
+                      found.paired.difference.mean, sql(found.paired.difference.half_width), found.paired.p,
+                      found.p_holm, sql(found.comparable), sql(found.significant),
+                      found.gain ? sqlite::Value(found.gain->mean) : sqlite::Value(), of_gain(&Estimate::low),
+                      of_gain(&Estimate::high), sql(found.paired.correlation), sql(found.paired.variance_gain)});
   }
 
   void sentences(const char* table, const std::vector<Sentence>& said) {
@@ -161,7 +169,7 @@ class Filler {
   const Study& study_;
   const Plan& plan_;
   const Outcome& outcome_;
-  SqliteWriter& database_;
+  sqlite::Writer& database_;
 };
 
 }  // namespace
@@ -178,10 +186,11 @@ Expected<Outcome> outcome_of(const StudyFolder& folder) {
 
 Expected<Done> write_database(const StudyFolder& folder, const Outcome& outcome) {
   const fs::path unfinished = folder.path() / (std::string(kDatabase) + ".unfinished");
-  SqliteWriter database(unfinished);
+  std::error_code code;
+  fs::remove(unfinished, code);
+  sqlite::Writer database(unfinished);
   Filler(folder, outcome, database).fill();
   if (auto done = database.finish(); !done) return done;
-  std::error_code code;
   fs::rename(unfinished, folder.path() / kDatabase, code);
   if (code) return Error{(folder.path() / kDatabase).string(), "cannot be written: " + code.message()};
   return Done{};

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
+#include "common/core/markup.hpp"
 #include "common/core/version.hpp"
-#include "services/lukou/report/figure/svg.hpp"
 #include "services/lukou/study/number_text.hpp"
 
 namespace lukou::studies {
 namespace {
-
-using figure::escaped;
 
 constexpr const char* kStyle = R"(
 :root { --ink: #17202a; --muted: #55616e; --line: #d5dbe1; --ground: #eef1ef; --panel: #fff; --warn: #fff3d6; }
@@ -33,8 +31,8 @@ std::string tag(const std::string& name, const std::string& content) {
   return "<" + name + ">" + content + "</" + name + ">";
 }
 
-std::string cell(const std::string& text) { return tag("td", escaped(text)); }
-std::string number(const std::string& text) { return "<td class=\"number\">" + escaped(text) + "</td>"; }
+std::string cell(const std::string& text) { return tag("td", markup_text(text)); }
+std::string number(const std::string& text) { return "<td class=\"number\">" + markup_text(text) + "</td>"; }
 
 /// "0, 200, 400 ms"
 std::string levels_text(const Factor& factor) {
@@ -53,8 +51,8 @@ class Page {
     html_ =
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width\">\n" +
-        tag("title", escaped(title)) + "\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main>\n";
-    html_ += tag("h1", escaped(title)) + "\n<p class=\"meta\">" + escaped(meta()) + "</p>\n";
+        tag("title", markup_text(title)) + "\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main>\n";
+    html_ += tag("h1", markup_text(title)) + "\n<p class=\"meta\">" + markup_text(meta()) + "</p>\n";
     what_was_run();
     warnings();
     for (std::size_t measure = 0; measure < outcome_.analysis.measures.size(); ++measure) of_measure(measure);
@@ -78,7 +76,7 @@ class Page {
 
   void begin(const std::string& title, const std::string& kind = "") {
     html_ += kind.empty() ? "<section>\n" : "<section class=\"" + kind + "\">\n";
-    html_ += tag("h2", escaped(title)) + "\n";
+    html_ += tag("h2", markup_text(title)) + "\n";
   }
   void end() { html_ += "</section>\n"; }
 
@@ -113,7 +111,7 @@ class Page {
   void list(const std::vector<Sentence>& sentences, const std::string& about) {
     html_ += "<ul>\n";
     for (const Sentence& sentence : sentences)
-      if (about.empty() || sentence.about == about) html_ += tag("li", escaped(sentence.text)) + "\n";
+      if (about.empty() || sentence.about == about) html_ += tag("li", markup_text(sentence.text)) + "\n";
     html_ += "</ul>\n";
   }
 
@@ -127,7 +125,8 @@ class Page {
   void picture(const Picture& shown) {
     const bool single = shown.svg.find("<g transform=\"translate(0 0)\">") == shown.svg.rfind("<g transform=");
     html_ += std::string("<figure") + (single ? " class=\"single\"" : "") + ">\n" + shown.svg + "<figcaption>" +
-             escaped(shown.caption) + " <a href=\"figures/" + shown.name + ".svg\">SVG</a></figcaption>\n</figure>\n";
+             markup_text(shown.caption) + " <a href=\"figures/" + shown.name +
+             ".svg\">SVG</a></figcaption>\n</figure>\n";
   }
 
   void of_measure(std::size_t measure) {
@@ -181,26 +180,15 @@ class Page {
 
   void again() {
     begin("To have it again");
-    html_ += "<pre>lukou sweep " + escaped(folder_.path().string()) +
-             " --resume   # makes what is missing\nlukou report " + escaped(folder_.path().string()) +
+    html_ += "<pre>lukou sweep " + markup_text(folder_.path().string()) +
+             " --resume   # makes what is missing\nlukou report " + markup_text(folder_.path().string()) +
              "            # judges the runs anew</pre>\n<p>" +
-             escaped(
+             markup_text(
                  "study.sqlite holds every number (table results: a row a run), runs.csv, estimates.csv and "
                  "comparisons.csv the main ones; sha256.txt the hash of every file of every run, kept or not.") +
              "</p>\n<details><summary>The study, hash " + hash(study_) + "</summary>\n<pre>" +
-             escaped_lines(study_.text) + "</pre>\n</details>\n";
+             markup_text(study_.text) + "</pre>\n</details>\n";
     end();
-  }
-
-  /// escaped() makes one line of several.
-  static std::string escaped_lines(const std::string& text) {
-    std::string safe;
-    for (std::size_t from = 0; from < text.size();) {
-      const std::size_t to = std::min(text.find('\n', from), text.size());
-      safe += escaped(text.substr(from, to - from)) + "\n";
-      from = to + 1;
-    }
-    return safe;
   }
 
   const StudyFolder& folder_;

@@ -1,6 +1,5 @@
 #include "services/lukou/study/runner.hpp"
 
-#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "common/process/environment.hpp"
 #include "common/results/result_folder.hpp"
 #include "services/lukou/launch/child.hpp"
+#include "services/lukou/launch/cores.hpp"
 
 namespace lukou::studies {
 namespace {
@@ -63,7 +63,7 @@ class Runner {
  public:
   Runner(const StudyFolder& folder, const std::vector<RunKey>& runs, const RunnerOptions& options,
          const SweepListener& listener)
-      : folder_(folder), runs_(runs), listener_(listener), cores_(usable_cores()), jobs_(options.jobs) {
+      : folder_(folder), runs_(runs), listener_(listener), cores_(launch::usable_cores()), jobs_(options.jobs) {
     if (!options.pin) cores_.clear();
     news_.total = runs.size();
     begun_s_ = process::wall_s();
@@ -195,15 +195,6 @@ class Runner {
 Expected<int> run_all(const StudyFolder& folder, const std::vector<RunKey>& runs, const RunnerOptions& options,
                       const SweepListener& listener) {
   return Runner(folder, runs, options, listener).run();
-}
-
-std::vector<int> usable_cores() {
-  cpu_set_t ours;
-  std::vector<int> cores;
-  if (sched_getaffinity(0, sizeof ours, &ours) != 0) return cores;
-  for (int core = 0; core < CPU_SETSIZE; ++core)
-    if (CPU_ISSET(static_cast<unsigned>(core), &ours)) cores.push_back(core);
-  return cores;
 }
 
 }  // namespace lukou::studies

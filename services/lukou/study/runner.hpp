@@ -29,7 +29,4 @@ using SweepListener = std::function<void(const SweepNews&)>;
 Expected<int> run_all(const StudyFolder& folder, const std::vector<RunKey>& runs, const RunnerOptions& options,
                       const SweepListener& listener);
 
-/// Processors that this process may use, in order.
-std::vector<int> usable_cores();
-
 }  // namespace lukou::studies

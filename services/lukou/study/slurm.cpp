@@ -11,27 +11,24 @@
 
 #include "common/process/environment.hpp"
 #include "common/results/result_folder.hpp"
+#include "services/lukou/launch/shell_word.hpp"
 
 namespace lukou::studies {
 namespace {
 
 namespace fs = std::filesystem;
 
+using launch::shell_word;
+
 constexpr const char* kJobsFile = "jobs.txt";
 constexpr const char* kGathered = "gathered";
 constexpr double kLookEvery_s = 1.0;
 constexpr double kAskEvery_s = 10.0;  ///< Slurm's controller
 
-std::string quoted(const std::string& word) {
-  std::string safe = "'";
-  for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return safe + "'";
-}
-
 /// What a command of Slurm prints, without the last line end; or what went wrong.
 Expected<std::string> answer_of(const std::vector<std::string>& command) {
   std::string line;
-  for (const std::string& word : command) line += quoted(word) + " ";
+  for (const std::string& word : command) line += shell_word(word) + " ";
   struct Close {
     void operator()(std::FILE* pipe) const { pclose(pipe); }
   };
@@ -105,12 +102,12 @@ Expected<SlurmJobs> submit(const StudyFolder& folder, const std::vector<RunKey>&
     const fs::path list = jobs.folder / ("task-" + std::to_string(task) + ".txt");
     if (auto done = results::write_file(list, lists[task]); !done) return done.error();
   }
-  const std::string lukou = quoted(fs::read_symlink("/proc/self/exe").string());
-  const std::string study = quoted(folder.path().string());
+  const std::string lukou = shell_word(fs::read_symlink("/proc/self/exe").string());
+  const std::string study = shell_word(folder.path().string());
   const std::string task_script = "#!/bin/sh\nexec " + lukou + " sweep " + study + " --task " +
-                                  quoted((jobs.folder / "task-").string()) + "\"$SLURM_ARRAY_TASK_ID\".txt\n";
+                                  shell_word((jobs.folder / "task-").string()) + "\"$SLURM_ARRAY_TASK_ID\".txt\n";
   const std::string gathering_script =
-      "#!/bin/sh\n" + lukou + " report " + study + "; touch " + quoted((jobs.folder / kGathered).string()) + "\n";
+      "#!/bin/sh\n" + lukou + " report " + study + "; touch " + shell_word((jobs.folder / kGathered).string()) + "\n";
   if (auto done = results::write_file(jobs.folder / "task.sh", task_script); !done) return done.error();
   if (auto done = results::write_file(jobs.folder / "gather.sh", gathering_script); !done) return done.error();
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/core/markup.hpp"
+
 namespace lukou::figure {
 namespace {
 
@@ -210,27 +212,11 @@ std::string Svg::document(double width_pt, double height_pt, std::string_view ti
 }
 
 std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        // XML knows no other control characters.
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return safe;
+  // XML knows no other control characters than these of a layout, which a picture has not.
+  std::string plain(text);
+  for (char& c : plain)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return markup_text(plain);
 }
 
 double text_width_pt(std::string_view text, double size_pt) {

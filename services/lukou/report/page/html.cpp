@@ -1,5 +1,7 @@
 #include "services/lukou/report/page/html.hpp"
 
+#include "common/core/markup.hpp"
+
 namespace lukou::report::html {
 namespace {
 
@@ -82,32 +84,9 @@ std::string choice(Language language, std::string_view code, bool first) {
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
-
 std::string both(const Words& words) {
-  return "<span class=\"en\" lang=\"en\">" + escaped(words.en) + "</span><span class=\"zh\" lang=\"zh-CN\">" +
-         escaped(words.zh) + "</span>";
+  return "<span class=\"en\" lang=\"en\">" + markup_text(words.en) + "</span><span class=\"zh\" lang=\"zh-CN\">" +
+         markup_text(words.zh) + "</span>";
 }
 
 std::string element(std::string_view name, std::string_view content, std::string_view attributes) {
@@ -124,7 +103,7 @@ std::string document(const Page& page) {
                      // Nothing comes from elsewhere, whoever opens the page.
                      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
                      "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n" +
-                     element("title", escaped(page.title.in(page.first))) + "\n<style>" + std::string(kStyle);
+                     element("title", markup_text(page.title.in(page.first))) + "\n<style>" + std::string(kStyle);
   html += inside(page.style) + "</style>\n</head>\n<body>\n";
   html += choice(Language::kEnglish, "en", !chinese) + choice(Language::kChinese, "zh", chinese);
   html +=

@@ -7,8 +7,6 @@
 
 namespace lukou::report::html {
 
-/// Text as it may stand in an element or an attribute; line ends stay.
-std::string escaped(std::string_view text);
 /// Both languages of a text, of which the page shows one. The words themselves are text, not HTML.
 std::string both(const Words& words);
 /// <name attributes>content</name>; the content is HTML.

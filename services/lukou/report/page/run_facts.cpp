@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/markup.hpp"
 #include "common/core/step.hpp"
 #include "scenario.pb.h"
 #include "services/lukou/report/page/html.hpp"
@@ -14,9 +15,8 @@ namespace {
 
 using html::both;
 using html::element;
-using html::escaped;
 
-std::string code(std::string_view text) { return element("code", escaped(text)); }
+std::string code(std::string_view text) { return element("code", markup_text(text)); }
 
 std::string seconds(double value) { return fixed(value, value == std::floor(value) ? 0 : 1) + " s"; }
 
@@ -29,7 +29,7 @@ std::string flow_of(const scenario::Demand& demand) {
 
 std::string signals_of(const scenario::Signals& signals) {
   const std::string plan = signals.has_plan() ? both({"a plan of its own, cycle ", "自定义配时，周期 "}) +
-                                                    escaped(fixed(signals.plan().cycle_s(), 0) + " s")
+                                                    markup_text(fixed(signals.plan().cycle_s(), 0) + " s")
                                               : code(scenario::SignalPreset_Name(signals.preset()));
   return signals.has_actuation() ? plan + both({"; RSUs may ask for greens", "；路侧可请求绿灯"}) : plan;
 }
@@ -73,7 +73,7 @@ std::string facts_section(const Result& result) {
     table.row({"complete to", "完整记录至"},
               seconds(time_s(manifest->complete_to_step)) + " / " + seconds(time_s(manifest->steps_planned)));
     table.row({"ended by", "结束原因"}, code(manifest->ended_by));
-    table.row({"version", "版本"}, "Lukou " + escaped(manifest->lukou_version));
+    table.row({"version", "版本"}, "Lukou " + markup_text(manifest->lukou_version));
     table.row({"scenario hash (SHA-256)", "场景哈希（SHA-256）"}, code(manifest->scenario_hash));
   }
   return element("section", element("h2", both({"What was run", "运行条件"})) + table.text());
@@ -90,7 +90,7 @@ std::string warnings_section(const Result& result) {
     const std::string until = fixed(time_s(manifest->complete_to_step), 1);
     bad.push_back(both({"The run ended early; all figures are of the first " + until + " s. Ended by: ",
                         "运行提前结束，所有图表仅为前 " + until + " 秒。结束原因："}) +
-                  code(manifest->ended_by) + " " + escaped(manifest->culprit));
+                  code(manifest->ended_by) + " " + markup_text(manifest->culprit));
   }
   const nlohmann::ordered_json& summary = result.summary();
   if (summary.is_object()) {
@@ -126,7 +126,7 @@ std::string warnings_section(const Result& result) {
                           "运行中曾由操作员修改；上述场景为开始时的状态。"}));
   }
   for (const std::string& warning : scenario::warnings(result.scenario())) {
-    known.push_back(element("span", escaped(warning), "class=\"said\" lang=\"en\""));
+    known.push_back(element("span", markup_text(warning), "class=\"said\" lang=\"en\""));
   }
   const auto section = [](const Words& title, const char* kind, const std::vector<std::string>& items) {
     if (items.empty()) return std::string();
@@ -161,9 +161,9 @@ std::string record_section(const Result& result) {
   const std::string again =
       "lukou run scenario.textproto --mode in-process --replay-directives directives.textproto --out again";
   content += element("h3", both({"To have it again, in the result folder", "在结果文件夹中重现"})) +
-             element("pre", escaped(again));
+             element("pre", markup_text(again));
   content += "<details><summary>" + both({"The scenario, every field", "场景，全部字段"}) + "</summary>\n" +
-             element("pre", escaped(scenario::text(result.scenario()))) + "</details>\n";
+             element("pre", markup_text(scenario::text(result.scenario()))) + "</details>\n";
   return element("section", content, "class=\"long\"");
 }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "common/core/markup.hpp"
 #include "services/lukou/report/page/charts.hpp"
 #include "services/lukou/report/page/html.hpp"
 #include "services/lukou/report/page/run_facts.hpp"
@@ -39,8 +40,8 @@ std::string picture(const std::string& svg, std::string_view language) {
 
 std::string undrawn(const Plot& plot, const Error& error) {
   return element("p",
-                 both({"Not drawn. It needs ", "未绘制。需要 "}) + element("code", html::escaped(plot.needs)) + ".") +
-         element("p", html::escaped(error.text()), "class=\"muted\" lang=\"en\"");
+                 both({"Not drawn. It needs ", "未绘制。需要 "}) + element("code", markup_text(plot.needs)) + ".") +
+         element("p", markup_text(error.text()), "class=\"muted\" lang=\"en\"");
 }
 
 /// A run that ended within its warm-up is shown from its beginning: there is nothing else.
@@ -58,7 +59,7 @@ ChartCode load_chart_code(const std::filesystem::path& folder) {
 Expected<std::string> run_report(const Result& result, const ChartCode& code, Language first) {
   const std::string name = result.name();
   html::Page page{.title = {"Lukou: " + name, "路口仿真：" + name}, .first = first};
-  page.head = element("h1", both({"Lukou: run ", "路口仿真：运行 "}) + html::escaped(name)) + "\n";
+  page.head = element("h1", both({"Lukou: run ", "路口仿真：运行 "}) + markup_text(name)) + "\n";
   page.content = warnings_section(result) + facts_section(result) + summary_section(result);
   Json charts = Json::object();
   for (const Plot& plot : plots()) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "console.pb.h"
+#include "tests/unit/common/lockstep/empty_road.hpp"
 
 namespace lukou::console {
 
@@ -56,17 +57,8 @@ std::string Rig::refusal(ViewerId viewer, const std::string& text) {
 }
 
 void Rig::show(Step step, double now_s) {
-  View view;
+  View view = empty_road();
   view.step = step;
-  FigureColumns& f = view.figures;
-  for (auto* column : {&f.arrived, &f.waiting, &f.in_system, &f.left, &f.standing, &f.stops}) column->resize(3);
-  for (auto* column :
-       {&f.throughput_veh_per_h, &f.stops_per_vehicle, &f.stop_time_s, &f.mean_stop_time_s, &f.mean_delay_s}) {
-    column->resize(3);
-  }
-  view.queue.resize(12);
-  view.arrived.resize(4);
-  view.waiting.resize(4);
   hub.show(view, now_s);
 }
 
