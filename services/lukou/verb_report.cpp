@@ -68,9 +68,14 @@ Action add_report(CLI::App& app) {
   verb->add_option("--out", arguments->out, "file to write; default report.html in the result folder");
   verb->add_option("--lang", arguments->language, "language that it opens in: en or zh; it holds both")
       ->check(CLI::IsMember({"en", "zh"}));
-  return [arguments] {
-    const bool study = studies::StudyFolder::is_one(arguments->folder);
-    return study ? report_study(arguments->folder) : report_run(*arguments);
+  return [arguments, verb] {
+    if (!studies::StudyFolder::is_one(arguments->folder)) return report_run(*arguments);
+    for (const char* option : {"--out", "--lang"}) {
+      if (verb->count(option) > 0) {
+        return report_errors({option, "is for the report of a run; a study's is in English, in the study's folder"});
+      }
+    }
+    return report_study(arguments->folder);
   };
 }
 

@@ -289,6 +289,9 @@ TEST_F(Sweep, ReportIsTheSameHoweverOftenItIsMade) {
   EXPECT_EQ(dump(out / "study.sqlite"), database);
   EXPECT_EQ(content(out / "report.html"), page);
   EXPECT_EQ(content(out / "runs.csv"), runs);
+  const Finished elsewhere = lukou({"report", out.string(), "--out", (folder_ / "page.html").string()});
+  EXPECT_EQ(elsewhere.code, 2);
+  EXPECT_NE(elsewhere.err.find("--out: is for the report of a run"), std::string::npos) << elsewhere.err;
   const Finished no_study = lukou({"report", (out / "runs").string()});
   EXPECT_EQ(no_study.code, 2);
   EXPECT_NE(no_study.err.find("is no result folder"), std::string::npos);
