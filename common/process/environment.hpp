@@ -11,7 +11,7 @@ namespace lukou::process {
 /// Exit codes of every program (docs/results.md).
 enum ExitCode : int {
   kExitDone = 0,
-  kExitInternal = 1,       ///< also: `verify` found a difference
+  kExitInternal = 1,       ///< also: `verify`, `redrive` or `compare` found a difference
   kExitUsage = 2,          ///< usage or scenario error
   kExitAborted = 3,        ///< a participant was lost or stalled
   kExitAnomaly = 4,        ///< collision or overflow: the simulation itself ended the run

@@ -14,8 +14,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string(version()));
   app.require_subcommand(1);
   const std::vector<Action (*)(CLI::App&)> verbs = {
-      add_run,    add_verify,  add_validate, add_inspect, add_ctl,  add_doctor, add_algorithms, add_new,  add_why,
-      add_replay, add_redrive, add_keys,     add_leash,   add_plot, add_report, add_export,     add_sweep};
+      add_run,    add_verify,  add_validate, add_inspect, add_ctl,  add_doctor, add_algorithms, add_new,   add_why,
+      add_replay, add_redrive, add_keys,     add_leash,   add_plot, add_report, add_export,     add_sweep, add_compare};
   std::vector<std::pair<CLI::App*, Action>> actions;
   for (const auto add : verbs) {
     Action action = add(app);

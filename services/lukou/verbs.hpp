@@ -21,6 +21,7 @@ Action add_new(CLI::App& app);
 Action add_why(CLI::App& app);
 Action add_plot(CLI::App& app);
 Action add_sweep(CLI::App& app);
+Action add_compare(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_export(CLI::App& app);
 Action add_replay(CLI::App& app);

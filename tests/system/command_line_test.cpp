@@ -106,6 +106,39 @@ TEST(CommandLine, PrintsOneJsonObject) {
   EXPECT_NE(run.out.find("\"vehicles_arrived\":"), std::string::npos);
 }
 
+TEST(CommandLine, ComparesTwoResultsCarByCarAndTellsByItsCodeWhetherTheyDiffer) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& name, const std::string& seed, const std::string& ratio) {
+    const Finished ended =
+        lukou({"run", "paper", "--mode", "in-process", "--quiet", "--duration", "1200", "--seed", seed, "--set",
+               "run.warmup_s=120", "--set", "vehicles.equipped_ratio=" + ratio, "--out", folder / name});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return (folder / name).string();
+  };
+  const std::string guided = run("guided", "1", "1");
+  const std::string none = run("none", "1", "0");
+  const Finished differ = lukou({"compare", guided, none, "--measure", "mean_stop_time_s"});
+  EXPECT_EQ(differ.code, 1) << differ.err;
+  EXPECT_NE(differ.out.find("A lower by"), std::string::npos) << differ.out;
+  EXPECT_NE(differ.err.find("12 batches of 90 s"), std::string::npos) << differ.err;
+
+  const Finished same = lukou({"compare", guided, guided});
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_NE(same.out.find("equal"), std::string::npos) << same.out;
+
+  const Finished seeds = lukou({"compare", guided, run("other", "2", "1")});
+  EXPECT_EQ(seeds.code, 0) << "one value on each side tells nothing: " << seeds.out;
+  EXPECT_NE(seeds.err.find("no seed is in both"), std::string::npos) << seeds.err;
+
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"compare", guided, folder / "nothing"},
+                                                {"compare", guided, none, "--measure", "mean_delay"},
+                                                {"compare", guided}}) {
+    const Finished refused = lukou(wrong);
+    EXPECT_EQ(refused.code, 2) << wrong.back();
+    EXPECT_FALSE(refused.err.empty());
+  }
+}
+
 TEST(CommandLine, ValidatesAndPrintsEveryField) {
   const Finished valid = lukou({"validate", "paper", "--print", "--set", "vehicles.equipped_ratio=0.25"});
   EXPECT_EQ(valid.code, 0) << valid.err;

@@ -81,6 +81,37 @@ TEST_F(Sweep, RunsAreThoseOfLukouRunByteForByte) {
   EXPECT_EQ(checked, 0);
 }
 
+TEST_F(Sweep, ArmsAreComparedAsTheReportComparesThem) {
+  write(file_, small_study(300.0));
+  const fs::path out = folder_ / "study";
+  ASSERT_EQ(lukou(arguments(out)).code, 0);
+  const Finished compared =
+      lukou({"compare", out.string() + ":guided", out.string() + ":none", "--measure", "mean_stop_time_s", "--json"});
+  const json found = json::parse(compared.out, nullptr, false);
+  ASSERT_TRUE(found.is_object()) << compared.out << compared.err;
+  ASSERT_EQ(found["groups"].size(), 2U) << "a group a latency";
+  // comparisons.csv: grid,cell,<factors>,arm,measure,n,arm_mean,baseline_mean,difference,...
+  std::istringstream table(content(out / "comparisons.csv"));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(table, line);)
+    if (line.find(",mean_stop_time_s,") != std::string::npos) rows.push_back(line);
+  ASSERT_EQ(rows.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json& measure = found["groups"][i]["measures"][0];
+    EXPECT_EQ(measure["n"], 3);
+    EXPECT_EQ(measure["basis"], "pairs of seeds");
+    std::istringstream cells(rows[i].substr(rows[i].find(",mean_stop_time_s,") + 18));
+    std::string n;
+    std::string arm_mean;
+    std::getline(cells, n, ',');
+    std::getline(cells, arm_mean, ',');
+    EXPECT_NEAR(measure["a"].get<double>(), std::stod(arm_mean), 1e-6);
+  }
+  const Finished nobody = lukou({"compare", out.string() + ":nobody", out.string() + ":none"});
+  EXPECT_EQ(nobody.code, 2);
+  EXPECT_NE(nobody.err.find(":guided"), std::string::npos) << "the arms that there are: " << nobody.err;
+}
+
 TEST_F(Sweep, RunsAsProcessesOverDdsGiveTheSameBytes) {
   write(file_,
         "scenario: \"paper\"\nset: \"run.duration_s=60\"\nset: \"run.warmup_s=10\"\nseeds { count: 2 }\nmode: "

@@ -56,21 +56,15 @@ PointResult result_of(const Study& study, const std::vector<RunRecord>& runs) {
   return result;
 }
 
-Comparison compared(const Pairs& pairs, const Measure& measure, double confidence) {
-  Comparison found;
-  found.of_arm = statistics::estimate(pairs.arm, confidence);
-  found.of_baseline = statistics::estimate(pairs.baseline, confidence);
-  found.paired = statistics::compare(pairs.arm, pairs.baseline, confidence);
-  found.comparable = !pairs.anomalies;
-  found.gain = found.paired.reduction;
-  if (found.gain && !measure.less_is_better) found.gain->mean = -found.gain->mean;
-  return found;
-}
-
 /// Whether the interval of the gain leaves 0 out; few pairs may have a clear difference and a gain that is not.
 bool gain_is_clear(const Comparison& found) {
   if (!found.gain || !found.gain->half_width) return true;
   return std::abs(found.gain->mean) > *found.gain->half_width;
+}
+
+void correct(Comparison& found, double p_holm, double confidence) {
+  found.p_holm = p_holm;
+  found.significant = found.comparable && p_holm < 1.0 - confidence && gain_is_clear(found);
 }
 
 /// The arms of one cell for one measure, corrected for that they are several.
@@ -92,8 +86,7 @@ void add_comparisons(const Study& study, const Cell& cell, const Gathered& gathe
   for (const Comparison& found : family) p.push_back(found.paired.p);
   const std::vector<double> corrected = statistics::holm(p);
   for (std::size_t i = 0; i < family.size(); ++i) {
-    family[i].p_holm = corrected[i];
-    family[i].significant = family[i].comparable && corrected[i] < 1.0 - study.confidence && gain_is_clear(family[i]);
+    correct(family[i], corrected[i], study.confidence);
     comparisons.push_back(std::move(family[i]));
   }
 }
@@ -117,6 +110,18 @@ Pairs pairs_of(const std::vector<RunRecord>& arm, const std::vector<RunRecord>& 
     pairs.anomalies = pairs.anomalies || anomaly(run) || anomaly(*other);
   }
   return pairs;
+}
+
+Comparison compared(const Pairs& pairs, const Measure& measure, double confidence) {
+  Comparison found;
+  found.of_arm = statistics::estimate(pairs.arm, confidence);
+  found.of_baseline = statistics::estimate(pairs.baseline, confidence);
+  found.paired = statistics::compare(pairs.arm, pairs.baseline, confidence);
+  found.comparable = !pairs.anomalies;
+  found.gain = found.paired.reduction;
+  if (found.gain && !measure.less_is_better) found.gain->mean = -found.gain->mean;
+  correct(found, found.paired.p, confidence);
+  return found;
 }
 
 const Comparison* Analysis::find(std::size_t cell, std::size_t arm, std::size_t measure) const {

@@ -61,4 +61,7 @@ struct Pairs {
 };
 Pairs pairs_of(const std::vector<RunRecord>& arm, const std::vector<RunRecord>& baseline, std::size_t measure);
 
+/// An arm against one baseline, alone: nothing is corrected. Requires at least one pair.
+Comparison compared(const Pairs& pairs, const Measure& measure, double confidence);
+
 }  // namespace lukou::studies
