@@ -5,21 +5,25 @@
 #   launch_scripts/bench.sh --peers                    installs Debian's sumo first
 #   launch_scripts/bench.sh --write                    also puts the table into docs/performance.md
 #   launch_scripts/bench.sh --repeats 5 --duration 3600 --long 36000
+#   launch_scripts/bench.sh --sweep                    a study with two jobs beside one, in five pairs, and nothing else
 set -euo pipefail
 cd "$(dirname "$0")/.."
 peers=()
 write=
+program=run_speed
 arguments=()
 for argument in "$@"; do
   case "$argument" in
     --peers ) peers=(--bench) ;;
     --write ) write=yes ;;
+    --sweep ) program=sweep_jobs ;;
     * ) arguments+=("$argument") ;;
   esac
 done
 launch_scripts/setup.sh "${peers[@]}" >&2
-cmake --build build --target run_speed >&2
+cmake --build build --target "$program" >&2
 export LUKOU_SCENARIOS=$PWD/launch_scripts/scenarios
+[ "$program" = run_speed ] || exec "build/tests/$program" "${arguments[@]}"
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT
 code=0

@@ -44,8 +44,8 @@ fi
 # SUMO may have come after the last look for it.
 sumo_waits() { [ -x /usr/bin/sumo ] && ! grep -q '^SUMO_LIBRARY:FILEPATH=/' build/CMakeCache.txt; }
 [ -f build/build.ninja ] && ! sumo_waits || cmake --preset release >/dev/null
-if [ -n "$tier" ] && [ "$tier" != --bench ]; then
-  cmake --build build
-else
-  cmake --build build --target lukou_programs
-fi
+case "$tier" in
+  --full ) cmake --build build --target all lukou_full_tests ;;
+  --tests ) cmake --build build ;;
+  * ) cmake --build build --target lukou_programs ;;
+esac
