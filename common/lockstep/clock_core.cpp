@@ -47,7 +47,7 @@ void ClockCore::receive(double now_s, const Up& message) {
     for (const auto& [incarnation, member] : members_)
       if (member.role == message.role) return lost(now_s, incarnation, RunOutcome::Kind::kLost, message.text);
     // A process that never joined: nobody to fence, the run cannot form.
-    if (phase_ == RunPhase::kForming) end({RunOutcome::Kind::kLost, message.role, message.text, recorded_});
+    if (phase_ == RunPhase::kForming || message.role == kClockRole) fail(message.role, message.text);
     return;
   }
   const auto found = members_.find(message.incarnation);
@@ -193,10 +193,11 @@ Step ClockCore::budget(double now_s) {
 
 void ClockCore::grant(double now_s) {
   if (phase_ != RunPhase::kRunning && phase_ != RunPhase::kPaused) return;
-  if (rsu_awaited() && std::ranges::any_of(members_, [](const auto& m) { return !m.second.attached; })) return;
-  if (rsu_awaited() && !missing_roles().empty()) return;
-  const Step through = std::max(budget(now_s), through_);
+  const bool all_attached = std::ranges::all_of(members_, [](const auto& m) { return m.second.attached; });
+  const bool waits = rsu_awaited() && !(all_attached && missing_roles().empty());
+  const Step through = waits ? through_ : std::max(budget(now_s), through_);
   const bool last = through >= end_;
+  if (waits && !last) return;  // nobody comes back to a run that is to end here
   const bool news = through > through_ || (last && !last_sent_);
   phase_ = through >= hold_at_ && !last ? RunPhase::kPaused : RunPhase::kRunning;
   if (!news) return;
@@ -256,6 +257,10 @@ void ClockCore::fence(std::uint32_t rsu) {
   fence.epoch = life.epoch;
 }
 
+void ClockCore::fail(const std::string& culprit, const std::string& how) {
+  if (!outcome_) end({RunOutcome::Kind::kLost, culprit, how, recorded_});
+}
+
 void ClockCore::end(RunOutcome outcome) {
   outcome_ = std::move(outcome);
   const bool aborted = outcome_->kind == RunOutcome::Kind::kLost || outcome_->kind == RunOutcome::Kind::kStalled;
@@ -304,11 +309,23 @@ void ClockCore::watch(double now_s) {
     const bool silent = now_s - member.heard_s >= settings_.stall_limit_s / 2;
     if (!member.waiting_for.empty() && !silent) continue;
     return lost(now_s, incarnation, RunOutcome::Kind::kStalled,
-                "has not finished step " + std::to_string(std::max(member.progress + 1, member.first)) + " for " +
+                "has not finished step " + std::to_string(stalled_in(member)) + " for " +
                     std::to_string(static_cast<int>(now_s - progress_s_)) + " s");
   }
   end({RunOutcome::Kind::kStalled, std::string(kClockRole), "no participant makes progress and none says why",
        recorded_});
+}
+
+Step ClockCore::stalled_in(const Member& stalled) const {
+  // It says how far it is only while it waits; those who wait for it know better. Of an RSU they need the step before.
+  const Step delay = rsu_index(stalled.role) >= 0 ? kStepBefore.delay : kSameStep.delay;
+  Step step = std::max(stalled.progress + 1, stalled.first);
+  for (const auto& [incarnation, member] : members_) {
+    if (member.waiting_for == stalled.role && stalled.role != kControllerRole) {
+      step = std::max(step, member.progress + 1 - delay);
+    }
+  }
+  return step;
 }
 
 RunState ClockCore::state() const {

@@ -55,6 +55,8 @@ class ClockCore {
   void receive(double now_s, const Up& message);
   /// The process with this incarnation is gone without having left.
   void gone(double now_s, Incarnation incarnation);
+  /// The run ends unfinished, and nobody on the roster is to be blamed for it: the clock itself, or who started it.
+  void fail(const std::string& culprit, const std::string& how);
   /// The clock's own endpoints are matched with everybody on this roster.
   void sees(double now_s, std::uint32_t roster_version);
   /// Pace and deadlines; call at least ten times a second.
@@ -105,6 +107,8 @@ class ClockCore {
   [[nodiscard]] Step budget(double now_s);
   [[nodiscard]] std::vector<std::string> missing_roles() const;
   [[nodiscard]] bool rsu_awaited() const;
+  /// The step in which a stalled member stands, as far as anybody has said.
+  [[nodiscard]] Step stalled_in(const Member& stalled) const;
   Control& send(Control::Kind kind, Incarnation to = 0);
 
   ClockSettings settings_;

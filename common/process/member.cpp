@@ -150,9 +150,11 @@ void Member::receive(const Control& control) {
       break;
     case Control::Kind::kEnded:
       end_ = MemberEnd{MemberEnd::Kind::kEnded, "", control.text};
+      told_by_clock_ = true;
       break;
     case Control::Kind::kAbort:
       end_ = MemberEnd{MemberEnd::Kind::kAborted, control.culprit, control.text};
+      told_by_clock_ = true;
       break;
     default:
       break;
@@ -193,6 +195,18 @@ void Member::wait(const std::string& for_whom) {
   poll();
 }
 
-void Member::leave() { send({.kind = Up::Kind::kLeave, .step = progress_}); }
+void Member::finish(MemberEnd end) {
+  if (!end_) end_ = std::move(end);
+}
+
+void Member::leave() {
+  const bool somebodys_fault = end_->kind == MemberEnd::Kind::kAborted || end_->kind == MemberEnd::Kind::kClockLost;
+  if (somebodys_fault && !told_by_clock_) accuse(end_->culprit, end_->text);
+  send({.kind = Up::Kind::kLeave, .step = progress_});
+}
+
+void Member::accuse(const std::string& culprit, const std::string& what) {
+  up_.write({.kind = Up::Kind::kLost, .incarnation = participant_->self(), .role = culprit, .text = what});
+}
 
 }  // namespace lukou::process

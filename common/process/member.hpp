@@ -78,8 +78,10 @@ class Member {
   /// Waits for news (at most 100 ms), saying for whom: "" = nobody.
   void wait(const std::string& for_whom);
   void send(Up message);
-  /// Ends this process's part from inside.
-  void finish(MemberEnd end) { end_ = std::move(end); }
+  /// Tells the clock that a member, perhaps this one, cannot go on or sends what nobody can use.
+  void accuse(const std::string& culprit, const std::string& what);
+  /// Ends this process's part from inside: the clock is told whose fault that is, and why.
+  void finish(MemberEnd end);
   void leave();
 
  private:
@@ -121,6 +123,7 @@ class Member {
   std::string waiting_for_;
   double heartbeat_s_ = 0.0;
   std::optional<MemberEnd> end_;
+  bool told_by_clock_ = false;  ///< how it ends; otherwise the clock may not know
 };
 
 }  // namespace lukou::process

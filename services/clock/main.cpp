@@ -27,6 +27,9 @@ class ClockOnTheBus {
     up_.take([this](Up& message, const bus::SampleInfo& info) {
       if (info.alive && message.kind == Up::Kind::kRequest) {
         requests_.push_back(message);
+      } else if (info.alive && message.kind == Up::Kind::kJoin) {
+        // Discovery goes both ways: a welcome before the other side has matched would be lost. It asks again.
+        if (control_.matched().contains(message.incarnation)) core_.receive(process::wall_s(), message);
       } else if (info.alive) {
         core_.receive(process::wall_s(), message);
       } else {
@@ -175,7 +178,12 @@ int run(int argc, char** argv) {
     core.tick(process::wall_s());
     clock.send();
     if (core.outcome() && over_s == 0.0) over_s = process::wall_s();
-    if (process::stop_signal() != 0 && (watchdog || over_s != 0.0)) return process::kExitTerminated;
+    if (process::stop_signal() == 0) continue;
+    // Whoever started the run ends everybody; a signal of somebody else's ends the clock, and the others must know.
+    const bool all_ended =
+        process::terminated_by_launcher() || process::stop_signal() == process::launcher_died_signal();
+    if (all_ended && (watchdog || over_s != 0.0)) return process::kExitTerminated;
+    if (!all_ended) core.fail(std::string(kClockRole), "was ended by a signal");
   }
   clock.finish();
   if (!core.outcome()->text.empty()) process::log_error(core.outcome()->culprit + " " + core.outcome()->text);

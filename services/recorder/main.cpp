@@ -16,18 +16,15 @@ constexpr double kCreditEvery_s = 0.5;  ///< wall time, for slow paces
 std::string ended_by(const process::Member& member) {
   using Kind = process::MemberEnd::Kind;
   const process::MemberEnd& end = member.end();
-  switch (end.kind) {
-    case Kind::kEnded:
-      return member.stopped().empty() ? "done" : member.stopped();
-    case Kind::kAborted:
-      return (end.text.starts_with("has not finished") ? "stalled:" : "lost:") + end.culprit;
-    case Kind::kClockLost:
-      return "lost:clock";
-    case Kind::kTerminated:
-    case Kind::kFenced:
-      break;
+  if (end.kind == Kind::kEnded) return member.stopped().empty() ? "done" : member.stopped();
+  // With its launcher everybody ends, and so does everybody where Ctrl-C cannot end the run in its own way: whom that
+  // hit first says nothing.
+  if (process::stop_signal() == process::launcher_died_signal()) return "lost:lukou";
+  if (end.kind == Kind::kAborted) {
+    return (end.text.starts_with("has not finished") ? "stalled:" : "lost:") + end.culprit;
   }
-  return "lost:lukou";
+  if (process::terminated_by_launcher()) return "interrupted";
+  return end.kind == Kind::kClockLost ? "lost:clock" : "lost:" + std::string(kRecorderRole);
 }
 
 /// The recorder's part in a run.

@@ -12,12 +12,14 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "common/process/environment.hpp"
+
 namespace lukou::launch {
 namespace {
 
 /// In the child, between fork and exec. Ends it on failure.
 [[noreturn]] void become(const ChildSpec& spec, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_PDEATHSIG, process::launcher_died_signal());
   if (getppid() != parent) _exit(127);  // died meanwhile
   setpgid(0, 0);
   if (spec.core) {

@@ -64,6 +64,36 @@ TEST(ClockLosses, OfAMemberThatLeavesBeforeTheEndAbortTheRun) {
   }
 }
 
+TEST(ClockLosses, ThatAMemberSeesAbortTheRunWithItsWords) {
+  ClockRig rig;
+  rig.form();
+  static_cast<void>(rig.heard());
+  // As the engine does that cannot use what the controller sends, and a member that ends with an error of its own.
+  rig.up({.kind = Up::Kind::kLost, .incarnation = kEngine, .role = "signal-controller", .text = "leaves a gap"});
+  EXPECT_EQ(rig.core.outcome()->text, "leaves a gap");
+  expect_aborted(rig, "signal-controller");
+}
+
+TEST(ClockLosses, OfTheClockItselfAreItsOwnFault) {
+  // It did not run for a while: the members have given it up, and their leaving is not their fault.
+  ClockRig rig;
+  rig.form();
+  rig.credit(80);
+  static_cast<void>(rig.heard());
+  rig.up({.kind = Up::Kind::kLost, .incarnation = kEngine, .role = "clock", .text = "the clock is gone"});
+  rig.up({.kind = Up::Kind::kLeave, .incarnation = kEngine, .step = 100});
+  EXPECT_EQ(rig.core.outcome()->complete_to, 80);
+  expect_aborted(rig, "clock");
+
+  ClockRig ended;
+  ended.form();
+  static_cast<void>(ended.heard());
+  ended.core.fail("clock", "was ended by a signal");
+  ended.core.fail("clock", "and again");
+  EXPECT_EQ(ended.core.outcome()->text, "was ended by a signal");
+  expect_aborted(ended, "clock");
+}
+
 TEST(ClockLosses, WhileTheRunFormsAbortIt) {
   for (const Role& role : kEverybody) {
     ClockRig joined;
