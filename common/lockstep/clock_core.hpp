@@ -18,6 +18,7 @@ enum class RsuLossPolicy : std::uint8_t { kAbort, kContinue, kWait };
 struct ClockSettings {
   std::string run;
   Incarnation incarnation = 0;
+  Incarnation launcher = 0;  ///< who may say, beside the members, that somebody is lost; 0 = nobody
   std::string scenario_text;
   std::string scenario_hash;
   std::uint32_t rsus = 1;
@@ -129,7 +130,10 @@ class ClockCore {
   Step through_ = -1;
   bool last_sent_ = false;
   Step recorded_ = -1;
-  Step hold_at_ = kNever;      ///< no grant beyond it: paused there
+  Incarnation recorder_ = 0;
+  std::map<Incarnation, std::uint64_t> foreign_samples_;  ///< by member, also those who have left
+  std::map<Incarnation, double> refused_s_;               ///< who asked in vain, and when it was told so last
+  Step hold_at_ = kNever;                                 ///< no grant beyond it: paused there
   bool single_steps_ = false;  ///< `step` asked for the way to it: at once, whatever the pace
   Step end_ = 0;
   std::string stopped_;  ///< why the run ends early: "stopped" or "interrupted"

@@ -21,11 +21,24 @@ std::vector<std::string> bound_names(std::string_view prefix) {
 std::vector<ListedRun> list_runs() {
   std::vector<ListedRun> runs;
   for (const std::string& name : bound_names(kRunSocketPrefix)) {
-    const auto slash = name.rfind('/');
-    if (slash != std::string::npos) runs.push_back({name.substr(0, slash), std::atoi(name.c_str() + slash + 1)});
+    const auto clock = name.rfind('/');
+    const auto domain = clock == std::string::npos || clock == 0 ? clock : name.rfind('/', clock - 1);
+    if (domain == std::string::npos) continue;
+    runs.push_back({name.substr(0, domain), std::atoi(name.c_str() + domain + 1),
+                    std::strtoull(name.c_str() + clock + 1, nullptr, 16)});
   }
   std::ranges::sort(runs, {}, &ListedRun::run);
   return runs;
+}
+
+std::string run_socket_name(const std::string& run, int domain, Incarnation clock) {
+  return std::string(kRunSocketPrefix) + run + "/" + std::to_string(domain) + "/" + bus::text_of(clock);
+}
+
+Incarnation clock_of(const bus::Address& address) {
+  for (const ListedRun& run : list_runs())
+    if (run.run == address.run && run.domain == address.domain) return run.clock;
+  return 0;
 }
 
 Expected<ListedRun> find_run(const std::string& name) {

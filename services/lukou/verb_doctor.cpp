@@ -75,7 +75,7 @@ int doctor() {
   const char* uri = std::getenv("CYCLONEDDS_URI");
   say(true, uri == nullptr ? "CYCLONEDDS_URI is not set: runs use loopback only"
                            : std::string("CYCLONEDDS_URI is set and wins: ") + uri);
-  const auto claim = launch::DomainClaim::lowest_free("doctor");
+  const auto claim = launch::DomainClaim::lowest_free("doctor", process::new_incarnation());
   const std::size_t free = launch::free_domains().size();
   good &= say(claim.ok(), std::to_string(free + (claim ? 1 : 0)) + " of the domain ids 0 to 100 are free" +
                               (claim ? ", the lowest is " + std::to_string(claim.value().domain()) : ""));

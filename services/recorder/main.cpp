@@ -33,8 +33,8 @@ class Recorder {
   Recorder(process::Member& member, RecorderNode node, Step promise)
       : member_(member), node_(std::move(node)), signal_(signal_timing(promise)), views_(member.participant()) {}
 
-  void hear(TrafficBatch& batch, std::uint32_t epoch) { check(traffic_.accept(epoch, batch)); }
-  void hear(SignalBatch& batch, std::uint32_t epoch) { check(signal_.accept(epoch, batch)); }
+  Expected<Done> hear(TrafficBatch& batch, std::uint32_t epoch) { return traffic_.accept(epoch, batch); }
+  Expected<Done> hear(SignalBatch& batch, std::uint32_t epoch) { return signal_.accept(epoch, batch); }
 
   [[nodiscard]] std::string waiting_for(Step k) {
     if (closed_) return "clock";
@@ -106,10 +106,6 @@ class Recorder {
     member_.finish({process::MemberEnd::Kind::kAborted, std::string(kRecorderRole), error.text()});
   }
 
-  void check(const Expected<Done>& done) {
-    if (!done) process::give_up(member_, std::string(kRecorderRole), done.error());
-  }
-
   process::Member& member_;
   RecorderNode node_;
   Edge<TrafficBatch> traffic_{kSameStep};
@@ -136,8 +132,8 @@ int run(int argc, char** argv) {
   process::Member& member = *created.value();
   bus::Reader<TrafficBatch> traffic_in(member.participant());
   bus::Reader<SignalBatch> signal_in(member.participant());
-  member.faces(Topic::kTraffic, traffic_in, false);
-  member.faces(Topic::kSignal, signal_in, false);
+  member.faces(Topic::kTraffic, traffic_in);
+  member.faces(Topic::kSignal, signal_in);
 
   const auto welcome = member.join();
   if (!welcome) return process::report_start(welcome.error(), process::kExitUsage);
@@ -151,12 +147,9 @@ int run(int argc, char** argv) {
   process::run_steps(
       member,
       [&] {
-        traffic_in.take([&](TrafficBatch& batch, const bus::SampleInfo& info) {
-          if (info.alive) recorder.hear(batch, info.epoch);
-        });
-        signal_in.take([&](SignalBatch& batch, const bus::SampleInfo& info) {
-          if (info.alive) recorder.hear(batch, info.epoch);
-        });
+        const auto accept = [&](auto& batch, const bus::SampleInfo& info) { return recorder.hear(batch, info.epoch); };
+        process::hear(member, traffic_in, accept);
+        process::hear(member, signal_in, accept);
         recorder.close_if_last(next);
         recorder.show_if_idle();
       },

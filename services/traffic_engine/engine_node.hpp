@@ -74,7 +74,7 @@ class EngineNode {
   /// Takes the advice that has reached its car by `now`.
   void deliver(Step now);
   void report_fates(TrafficBatch& traffic) const;
-  Expected<Done> report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const;
+  void report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const;
 
   EngineConfig config_;  ///< as it is in force
   traffic::Engine engine_;

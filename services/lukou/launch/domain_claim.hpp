@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/core/expected.hpp"
+#include "common/lockstep/messages.hpp"
 
 namespace lukou::launch {
 
@@ -11,8 +12,8 @@ namespace lukou::launch {
 /// socket, so that two launchers never get the same and the kernel frees it when the launcher dies, however it dies.
 class DomainClaim {
  public:
-  /// The lowest free id in [0, 100]. `run` is published beside it for `lukou ctl list`.
-  static Expected<DomainClaim> lowest_free(const std::string& run);
+  /// The lowest free id in [0, 100]. The run and its clock are published beside it: process::list_runs().
+  static Expected<DomainClaim> lowest_free(const std::string& run, Incarnation clock);
   DomainClaim(DomainClaim&& other) noexcept;
   DomainClaim& operator=(DomainClaim&& other) noexcept;
   ~DomainClaim();

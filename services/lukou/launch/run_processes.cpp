@@ -54,18 +54,20 @@ std::string python_path() {
 /// One run of processes, from the first fork to the last exit.
 class Session {
  public:
-  Session(const RunRequest& request, const Listener& listener, fs::path folder, DomainClaim claim, bus::Address address)
+  Session(const RunRequest& request, const Listener& listener, fs::path folder, DomainClaim claim, bus::Address address,
+          Incarnation clock)
       : request_(request),
         listener_(listener),
         folder_(std::move(folder)),
         claim_(std::move(claim)),
         address_(std::move(address)),
+        clock_(clock),
         protocol_(scenario::protocol(request.scenario)) {}
 
   RunReport run() {
     begun_s_ = process::wall_s();
     if (auto started = start_all(); !started) return failed(process::kExitInternal, started.error());
-    auto client = process::RunClient::attach(address_, request_.observe);
+    auto client = process::RunClient::attach(address_, request_.observe, self_);
     if (!client) return failed(process::kExitAborted, client.error());
     client_ = std::move(client).value();
     client_->on_control([this](const Control& said) {
@@ -98,7 +100,10 @@ class Session {
       spec.command.insert(spec.command.end(), more.begin(), more.end());
       return children_.start(spec);
     };
-    std::vector<std::string> clock = {"--scenario", (folder_ / "scenario.textproto").string(), "--pace", request_.pace};
+    std::vector<std::string> clock = {"--scenario",    (folder_ / "scenario.textproto").string(),
+                                      "--pace",        request_.pace,
+                                      "--incarnation", bus::text_of(clock_),
+                                      "--launcher",    bus::text_of(self_)};
     if (request_.start_paused) clock.emplace_back("--wait");
     if (!request_.stall_limit_s.empty()) clock.insert(clock.end(), {"--stall-limit", request_.stall_limit_s});
     if (!request_.replay.empty()) clock.insert(clock.end(), {"--replay-directives", request_.replay.string()});
@@ -260,6 +265,7 @@ class Session {
     end.text = text_;
     end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : process::wall_s());
     end.start_up_s = running_s_ != 0.0 ? running_s_ - begun_s_ : 0.0;
+    end.foreign_samples = client_->foreign_samples() + (client_->state() ? client_->state()->foreign_samples : 0);
     RunReport report = finish_result(request_, folder_, end);
     report.restart = restart_;
     return report;
@@ -280,6 +286,8 @@ class Session {
   fs::path folder_;
   DomainClaim claim_;
   bus::Address address_;
+  Incarnation clock_;
+  Incarnation self_ = process::new_incarnation();
   scenario::Protocol protocol_;
   std::unique_ptr<process::RunClient> client_;
   Children children_;
@@ -327,10 +335,11 @@ RunReport run_processes(const RunRequest& request, const Listener& listener) {
   auto folder = create_result(request);
   if (!folder) return refuse(process::kExitIo, folder.error());
   const std::string run = request.run_id.empty() ? run_id(request) : request.run_id;
-  auto claim = DomainClaim::lowest_free(run);
+  const Incarnation clock = process::new_incarnation();
+  auto claim = DomainClaim::lowest_free(run, clock);
   if (!claim) return refuse(process::kExitAborted, claim.error());
   const bus::Address address{claim.value().domain(), run};
-  Session session(request, listener, folder.value(), std::move(claim).value(), address);
+  Session session(request, listener, folder.value(), std::move(claim).value(), address, clock);
   return session.run();
 }
 

@@ -56,7 +56,7 @@ TEST(CycloneConfig, AppendsTheUsersWordBehindOursAndBeforeTheTag) {
 TEST(CycloneConfig, KeepsLargeBatchesAndDeadReadersFromBlockingARun) {
   for (const char* users : {static_cast<const char*>(nullptr), "file:///etc/cyclone.xml"}) {
     const std::string config = cyclone_config("r", users);
-    EXPECT_NE(config.find("<WhcHigh>16MB</WhcHigh>"), std::string::npos);
+    EXPECT_NE(config.find("<WhcHigh>1GB</WhcHigh>"), std::string::npos);
     EXPECT_NE(config.find("<FragmentSize>64000B</FragmentSize>"), std::string::npos);
     EXPECT_NE(config.find("<WriterLingerDuration>0s</WriterLingerDuration>"), std::string::npos);
     EXPECT_NE(config.find("<LeaseDuration>60s</LeaseDuration>"), std::string::npos);

@@ -4,98 +4,10 @@
 
 #include <tuple>
 
+#include "tests/unit/common/bus/batch_members.hpp"
+
 namespace lukou::bus {
 namespace {
-
-// Each type's members stand in one structured binding: a member that is added to a batch and not to its list here does
-// not compile, one that the bus forgets arrives empty.
-
-auto members(Frames& f) {
-  auto& [sender, sequence, kind, bytes, x, y, end, payload] = f;
-  return std::tie(sender, sequence, kind, bytes, x, y, end, payload);
-}
-
-auto members(SensedColumns& s) {
-  auto& [rsu, sensor, track, x, y, speed, heading, length, measured] = s;
-  return std::tie(rsu, sensor, track, x, y, speed, heading, length, measured);
-}
-
-auto members(AirBatch& b) {
-  auto& [step, frames, sensed] = b;
-  return std::tuple_cat(std::tie(step), members(frames), members(sensed));
-}
-
-auto members(ReceptionReport& r) {
-  auto& [direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, path_loss, collision,
-         half_duplex, outage, busy, latency] = r;
-  return std::tie(direction, kind, sent, heard, lost_random, lost_burst, lost_range, duplicates, path_loss, collision,
-                  half_duplex, outage, busy, latency);
-}
-
-auto members(RoadsideBatch& b) {
-  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception, requests, computing] = b;
-  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers, requests, computing), members(frames),
-                        members(reception));
-}
-
-auto members(RequestBatch& b) {
-  auto& [rsu, epoch, step, lanes, lifetime] = b;
-  return std::tie(rsu, epoch, step, lanes, lifetime);
-}
-
-auto members(SignalBatch& b) {
-  auto& [step, first, heads, lane, aspect, at, request_step, asked, rsu, lanes, outcome] = b;
-  return std::tie(step, first, heads, lane, aspect, at, request_step, asked, rsu, lanes, outcome);
-}
-
-auto members(TrafficBatch& b) {
-  auto& [step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance, bound_by,
-         missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped,
-         entered_speed, entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
-         fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded, answers, guard, overflow,
-         heard, requests, reception, fate_kind, fate_speed, computing] = b;
-  return std::tuple_cat(
-      std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance,
-               bound_by, missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane,
-               entered_equipped, entered_speed, entered_desired, crossed, crossed_time, crossed_aspect,
-               crossed_committed, left, left_time, fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued,
-               fate_commanded, answers, guard, overflow, heard, requests, fate_kind, fate_speed, computing),
-      members(reception));
-}
-
-auto members(Control& m) {
-  auto& [kind, clock, sequence, to, epoch, rsu, through, last, ok, number, version, roster_incarnation, roster_role,
-         directive_step, directive_set, attach_rsu, attach_epoch, attach_from, text, culprit] = m;
-  return std::tie(kind, clock, sequence, to, epoch, rsu, through, last, ok, number, version, roster_incarnation,
-                  roster_role, directive_step, directive_set, attach_rsu, attach_epoch, attach_from, text, culprit);
-}
-
-auto members(Up& m) {
-  auto& [kind, incarnation, role, protocol, number, step, text, hash] = m;
-  return std::tie(kind, incarnation, role, protocol, number, step, text, hash);
-}
-
-auto members(RunState& m) {
-  auto& [run, phase, granted, recorded, end, pace, text, culprit] = m;
-  return std::tie(run, phase, granted, recorded, end, pace, text, culprit);
-}
-
-auto members(FigureColumns& f) {
-  auto& [arrived, waiting, in_system, left, standing, stops, throughput, per_vehicle, stop_time, mean_stop_time,
-         mean_delay] = f;
-  return std::tie(arrived, waiting, in_system, left, standing, stops, throughput, per_vehicle, stop_time,
-                  mean_stop_time, mean_delay);
-}
-
-auto members(View& m) {
-  auto& [step, figures, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed, acceleration,
-         commanded, guidance, bound_by, missed, stood, advice, heads, change, next, direction, kind, sent, radio_heard,
-         lost, latency] = m;
-  return std::tuple_cat(std::tie(step, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed,
-                                 acceleration, commanded, guidance, bound_by, missed, stood, advice, heads, change,
-                                 next, direction, kind, sent, radio_heard, lost, latency),
-                        members(figures));
-}
 
 /// Gives every member a value that no other one has.
 class Filler {

@@ -48,7 +48,7 @@ TEST(ClockRsuContinue, FencesOneThatSaysGoodBye) {
   rig.up({.kind = Up::Kind::kLeave, .incarnation = kRsu, .step = 200});
   EXPECT_EQ(rig.the(Control::Kind::kFence).epoch, 1U);
   rig.core.gone(rig.now_s, kRsu);
-  rig.up({.kind = Up::Kind::kLost, .role = "rsu0", .text = "ended"});
+  rig.up({.kind = Up::Kind::kLost, .incarnation = kLauncher, .role = "rsu0", .text = "ended"});
   EXPECT_TRUE(rig.heard().empty()) << "the same loss told again";
 }
 
