@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-packages=(g++ make cmake ninja-build ccache cyclonedds-dev cyclonedds-tools libprotobuf-dev protobuf-compiler libspdlog-dev
+packages=(g++ make cmake ninja-build ccache cyclonedds-dev cyclonedds-tools libprotobuf-dev protobuf-compiler libzstd-dev zlib1g-dev libspdlog-dev
           libcli11-dev nlohmann-json3-dev libssl-dev librandom123-dev pybind11-dev python3-dev python3-numpy libboost1.81-dev libgtest-dev librapidcheck-dev libbenchmark-dev)
 # The console's page is built with npm: a package of its own in Debian, inside nodejs elsewhere.
 command -v node >/dev/null || packages+=(nodejs)
@@ -15,7 +15,8 @@ tier=${1:-}
 case "$tier" in
   "" ) ;;
   --tests ) packages+=(clang-format-19 chromium fonts-wqy-zenhei) ;;
-  --full ) packages+=(clang-format-19 clang-tidy-19 time chromium fonts-wqy-zenhei) ;;
+  --full ) packages+=(clang-format-19 clang-tidy-19 time chromium fonts-wqy-zenhei
+                      iproute2 nftables openssh-client faketime) ;;
   * ) echo "setup.sh: unknown argument $tier; use --tests or --full" >&2; exit 2 ;;
 esac
 

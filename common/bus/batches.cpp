@@ -24,7 +24,10 @@ void TrafficBatch::clear() {
   empty(crossed_vehicle, crossed_time_s, crossed_aspect, crossed_committed);
   empty(left_vehicle, left_time_s);
   empty(fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded_mps2);
-  empty(fate_kind, fate_speed_mps, computing_ms);
+  empty(fate_kind, fate_speed_mps, computing_ms, uplink_vehicle, uplink_rsu);
+  uplink.clear();
+  air.clear(), sensed.clear(), said.clear();
+  empty(said_rsu, asked_rsu, asked_lanes, asked_lifetime);
   answers_malformed = 0;
   requests_refused = 0;
   guard_interventions = 0;

@@ -6,6 +6,7 @@
 
 #include "common/core/step.hpp"
 #include "common/messages/frames.hpp"
+#include "common/radio/frame_fates.hpp"
 #include "common/radio/reception_report.hpp"
 
 // What crosses the bus in every step, as plain structures of arrays; idl/bus.idl is the same contract for DDS.
@@ -54,6 +55,10 @@ struct RoadsideBatch {
   ReceptionReport reception;            ///< uplink; empty under the ideal radio
   std::uint32_t requests_refused = 0;   ///< requests for greens that nobody takes: the plan is fixed
   std::uint32_t computing_ms = 0;       ///< delays whatever the algorithm answered in this step; 0 if its time is free
+  FrameFates uplink;                    ///< of each frame in the air of this step; empty under the ideal radio
+  // The request of the RequestBatch of this step, for the record; none or one.
+  std::vector<std::uint16_t> request_lanes;
+  std::vector<Step> request_lifetime;
 };
 
 /// RSU to signal controller: the greens that it asks for at t_step. Only in a run with signals.actuation.
@@ -214,6 +219,20 @@ struct TrafficBatch {
   std::vector<double> fate_speed_mps;   ///< of the kinds that ask for a speed; else NaN
 
   std::vector<std::uint32_t> computing_ms;  ///< per RSU: what delayed its answer of step - 1; 0 if it is silent
+
+  // What became of the frames that cars sent at t_(step-1), RSU by RSU as each told it; none under the ideal radio.
+  std::vector<std::uint32_t> uplink_vehicle;
+  std::vector<std::uint32_t> uplink_rsu;
+  FrameFates uplink;
+
+  // All that was said and sensed, for a run log that holds it; else empty.
+  Frames air;                              ///< what the cars sent at t_step: as in AirBatch
+  SensedColumns sensed;                    ///< what sensors delivered then
+  Frames said;                             ///< what the RSUs had sent at t_(step-1), as heard in this step, RSU by RSU
+  std::vector<std::uint32_t> said_rsu;     ///< of each of these frames
+  std::vector<std::uint32_t> asked_rsu;    ///< whose request for greens of t_(step-1) ...
+  std::vector<std::uint16_t> asked_lanes;  ///< ... was for these: bit n = lane n ...
+  std::vector<Step> asked_lifetime;        ///< ... for so many steps
 
   void clear();
 };

@@ -13,6 +13,10 @@ namespace {
 constexpr std::int32_t kLockstepHistory = 512;
 /// The clock says a few hundred things a second at most, and nobody lags behind by more than it grants.
 constexpr std::int32_t kStreamHistory = 4096;
+/// Silence that means that a process is gone. Cyclone gives a sign of life when 80 % of it are over; between hosts that
+/// may be lost, and said again.
+constexpr dds_duration_t kSilence = DDS_SECS(2);
+constexpr dds_duration_t kSilenceOfHosts = DDS_SECS(10);
 
 /// An entity that must exist: failing here means a bug of ours or a machine out of resources, never bad input.
 dds_entity_t made(dds_entity_t entity, const char* what) {
@@ -28,7 +32,7 @@ struct QosDeleter {
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
-Qos qos_of(Service service, bool writer, Incarnation self) {
+Qos qos_of(Service service, bool writer, const Participant::Entities& entities) {
   Qos qos(dds_create_qos());
   const bool reliable = service != Service::kPicture;
   dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(100));
@@ -46,9 +50,10 @@ Qos qos_of(Service service, bool writer, Incarnation self) {
   if (writer) {
     // A process that dies must not look like one that says good-bye.
     dds_qset_writer_data_lifecycle(qos.get(), false);
-    if (service == Service::kStream) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
+    if (service == Service::kStream)
+      dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, entities.hosts ? kSilenceOfHosts : kSilence);
   }
-  dds_qset_userdata(qos.get(), &self, sizeof self);
+  dds_qset_userdata(qos.get(), &entities.self, sizeof entities.self);
   return qos;
 }
 
@@ -156,7 +161,7 @@ std::string text_of(Incarnation incarnation) {
 template <class Batch>
 Writer<Batch>::Writer(Participant& participant) : participant_(participant) {
   auto& entities = participant_.entities();
-  const Qos qos = qos_of(TopicOf<Batch>::kService, true, entities.self);
+  const Qos qos = qos_of(TopicOf<Batch>::kService, true, entities);
   entity_ = made(dds_create_writer(entities.participant, topic_of<Batch>(entities), qos.get(), nullptr),
                  TopicOf<Batch>::kName);
 }
@@ -193,7 +198,7 @@ std::set<Incarnation> Writer<Batch>::matched() const {
 template <class Batch>
 Reader<Batch>::Reader(Participant& participant) : participant_(participant) {
   auto& entities = participant_.entities();
-  const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities.self);
+  const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities);
   dds_listener_t* listener = dds_create_listener(&entities);
   dds_lset_data_available(listener, on_news);
   entity_ = made(dds_create_reader(entities.participant, topic_of<Batch>(entities), qos.get(), listener),

@@ -16,6 +16,7 @@ struct Participant::Entities {
   Incarnation self = 0;
   std::shared_ptr<void> domain;
   dds_entity_t participant = 0;
+  bool hosts = false;  ///< the run is spread over several
   std::function<bool()> keep_writing = [] { return true; };
   std::map<std::string, Foreign> foreign;  ///< by topic
 

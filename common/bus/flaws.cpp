@@ -32,6 +32,11 @@ class Check {
     }
     return *this;
   }
+  /// What is named from now on is part of this.
+  Check& in(const char* part) {
+    part_ = part;
+    return *this;
+  }
   /// Every value passes; `must`: what it should be.
   template <class T, class Good>
   Check& each(const char* name, const std::vector<T>& column, const char* must, Good good) {
@@ -54,20 +59,26 @@ class Check {
 
  private:
   void fail(const std::string& what) {
-    if (wrong_.empty()) wrong_ = what;
+    if (wrong_.empty()) wrong_ = part_ + what;
   }
 
+  const char* part_ = "";
   std::string first_;
   std::size_t rows_ = 0;
   std::string wrong_;
 };
 
 constexpr const char* kANumber = "a finite number";
+constexpr const char* kFewEnough = "at most 65536 in a step";
 constexpr const char* kAStep = "a step, at least 0";
 
 // As objects, so that each column is one tight loop: these checks are made in every step.
 constexpr auto finite = [](double value) { return std::isfinite(value); };
 constexpr auto finite_or_none = [](double value) { return !std::isinf(value); };
+constexpr auto not_negative_or_none = [](double value) {
+  return std::isnan(value) || (!std::isinf(value) && value >= 0.0);
+};
+constexpr auto step_or_none = [](Step value) { return value >= -1; };
 constexpr auto not_negative = [](double value) { return std::isfinite(value) && value >= 0.0; };
 constexpr auto step = [](Step value) { return value >= 0; };
 /// In [First, Last].
@@ -79,7 +90,6 @@ constexpr auto aspect = within<1, 3>;
 constexpr auto frame_kind = within<1, 5>;
 
 void check(Check& check, const Frames& frames) {
-  check.that(frames.size() <= kFramesMax, "frames", "at most 65536 in a step");
   check.group("frames.sender", frames.sender).same("frames.sequence_number", frames.sequence);
   check.column("frames.kind", frames.kind, "1 to 5", frame_kind);
   check.column("frames.wire_bytes", frames.wire_bytes, "at most 65535",
@@ -114,11 +124,19 @@ void check(Check& check, const ReceptionReport& report) {
   check.each("reception.latency_ms", report.latency_ms, "at least 0", not_negative);
 }
 
+/// The rows of the group that stands.
+void check(Check& check, const FrameFates& fates) {
+  check.column("uplink.fate", fates.fate, "0 to 7", within<0, kFrameFates - 1>);
+  check.column("uplink.due", fates.due, "a step, or -1", step_or_none);
+  check.column("uplink.latency_ms", fates.latency_ms, "at least 0, or NaN", not_negative_or_none);
+}
+
 }  // namespace
 
 std::string flaw_of(const AirBatch& batch) {
   Check air;
   air.that(batch.step >= 0, "step", kAStep);
+  air.that(batch.frames.size() <= kFramesMax, "frames", kFewEnough);
   check(air, batch.frames);
   check(air, batch.sensed);
   return air.wrong();
@@ -127,8 +145,12 @@ std::string flaw_of(const AirBatch& batch) {
 std::string flaw_of(const RoadsideBatch& batch) {
   Check roadside;
   roadside.that(batch.step >= 0, "step", kAStep);
+  roadside.that(batch.frames.size() <= kFramesMax, "frames", kFewEnough);
   check(roadside, batch.frames);
   check(roadside, batch.reception);
+  check(roadside.group("uplink.fate", batch.uplink.fate), batch.uplink);
+  roadside.group("request_lanes", batch.request_lanes).that(batch.request_lanes.size() <= 1, "request_lanes", "one");
+  roadside.same("request_lifetime", batch.request_lifetime);
   return roadside.wrong();
 }
 
@@ -184,12 +206,20 @@ std::string flaw_of(const TrafficBatch& batch) {
   traffic.same("fate_sequence", batch.fate_sequence);
   traffic.column("fate", batch.fate, "0 to 22", within<0, kAdviceFates - 1>);
   traffic.column("fate_again", batch.fate_again, "0 or 1", yes_or_no);
-  traffic.column("fate_issued", batch.fate_issued, "a step, or -1", [](Step value) { return value >= -1; });
+  traffic.column("fate_issued", batch.fate_issued, "a step, or -1", step_or_none);
   traffic.column("fate_commanded_mps2", batch.fate_commanded_mps2, "a number, or NaN", finite_or_none);
   traffic.column("fate_kind", batch.fate_kind, "0 to 3", within<0, kAdviceKinds - 1>);
   traffic.column("fate_speed_mps", batch.fate_speed_mps, "a number, or NaN", finite_or_none);
   traffic.group("heard_epoch", batch.heard_epoch).same("computing_ms", batch.computing_ms);
   check(traffic, batch.reception);
+  traffic.group("uplink_vehicle", batch.uplink_vehicle).same("uplink_rsu", batch.uplink_rsu);
+  check(traffic, batch.uplink);
+  traffic.group("asked_rsu", batch.asked_rsu).same("asked_lanes", batch.asked_lanes);
+  traffic.same("asked_lifetime", batch.asked_lifetime);
+  traffic.group("said.sender", batch.said.sender).same("said_rsu", batch.said_rsu);
+  check(traffic.in("air: "), batch.air);
+  check(traffic, batch.sensed);
+  check(traffic.in("said: "), batch.said);
   return traffic.wrong();
 }
 

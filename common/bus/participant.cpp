@@ -7,9 +7,12 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "common/bus/cyclone_config.hpp"
 #include "common/bus/entities.hpp"
+#include "common/bus/identity.hpp"
+#include "common/bus/surroundings.hpp"
 
 namespace lukou::bus {
 namespace {
@@ -18,6 +21,8 @@ std::string reason(dds_return_t code) { return dds_strretcode(-code); }
 
 }  // namespace
 
+std::string Address::tag() const { return discovery_tag(run, !identity.empty()); }
+
 std::string library_version() { return std::string("Cyclone DDS ") + DDS_VERSION; }
 
 namespace {
@@ -25,7 +30,7 @@ namespace {
 /// A process has one DDS domain per id, whoever in it asks first: participants of the same run share it.
 class Domain {
  public:
-  static Expected<std::shared_ptr<Domain>> of(const Address& address) {
+  static Expected<std::shared_ptr<Domain>> of(const Address& address, const Identity* identity) {
     static std::mutex mutex;
     static std::map<int, std::weak_ptr<Domain>> open;
     const std::string where = "DDS domain " + std::to_string(address.domain);
@@ -34,7 +39,20 @@ class Domain {
       if (domain->run_ == address.run) return domain;
       return Error{where, "is in use for the run " + domain->run_ + " in this process"};
     }
-    const std::string config = cyclone_config(address.run, std::getenv("CYCLONEDDS_URI"));
+    const char* users = std::getenv("CYCLONEDDS_URI");
+    CycloneSettings settings{.run = address.run, .peers = address.peers, .identity = identity};
+    if (users != nullptr) settings.users_uri = users;
+    if (!address.peers.empty()) {
+      auto own = own_address_towards(address.peers.front());
+      if (!own) return own.error();
+      settings.own_address = std::move(own).value();
+    }
+    if (identity != nullptr) {
+      auto plugins = security_plugins();
+      if (!plugins) return plugins.error();
+      settings.plugins = std::move(plugins).value();
+    }
+    const std::string config = cyclone_config(settings);
     const dds_entity_t entity = dds_create_domain(static_cast<dds_domainid_t>(address.domain), config.c_str());
     if (entity < 0) {
       return Error{where, "cannot be configured (" + reason(entity) +
@@ -57,13 +75,30 @@ class Domain {
 
 }  // namespace
 
-Expected<std::unique_ptr<Participant>> Participant::join(const Address& address, Incarnation self) {
+Expected<std::unique_ptr<Participant>> Participant::join(const Address& address, std::string_view role,
+                                                         Incarnation self) {
+  std::optional<Identity> identity;
+  if (!address.identity.empty()) {
+    auto opened = open_identity(address.identity);
+    if (!opened) return opened.error();
+    identity = std::move(opened).value();
+    if (identity->role != role) {
+      return Error{address.identity.string(),
+                   "is the identity of " + identity->role + ", this process is " + std::string(role)};
+    }
+  }
   auto entities = std::make_unique<Entities>();
   entities->self = self;
-  auto domain = Domain::of(address);
+  entities->hosts = !address.peers.empty();
+  auto domain = Domain::of(address, identity ? &*identity : nullptr);
   if (!domain) return domain.error();
   entities->domain = std::move(domain).value();
   entities->participant = dds_create_participant(static_cast<dds_domainid_t>(address.domain), nullptr, nullptr);
+  if (entities->participant < 0 && identity) {
+    return Error{address.identity.string(), "lets nobody into DDS domain " + std::to_string(address.domain) + " (" +
+                                                reason(entities->participant) +
+                                                "); `lukou keys show DIR` checks the files"};
+  }
   if (entities->participant < 0) {
     return Error{"DDS domain " + std::to_string(address.domain),
                  "cannot be joined (" + reason(entities->participant) + "); is loopback up, are UDP ports " +

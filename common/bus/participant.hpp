@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "common/bus/batches.hpp"
 #include "common/bus/senders.hpp"
@@ -16,8 +19,13 @@ namespace lukou::bus {
 
 /// Where a run's processes meet.
 struct Address {
-  int domain = 0;   ///< DDS domain id, 0..100
-  std::string run;  ///< discovery tag: other runs' processes neither see nor hear this one
+  int domain = 0;                  ///< DDS domain id, 0..100
+  std::string run;                 ///< its id
+  std::vector<std::string> peers;  ///< addresses or names of the run's hosts; none: this host's loopback alone
+  std::filesystem::path identity;  ///< folder of this process's identity in a secured run; empty: an unsecured run
+
+  /// Processes of other tags neither see nor hear this one.
+  [[nodiscard]] std::string tag() const;
 };
 
 /// Name and version of the DDS implementation that this program was built with.
@@ -47,8 +55,10 @@ struct Foreign {
 /// participant waits, takes and writes.
 class Participant {
  public:
-  /// Errors: DDS cannot start in this domain (with Cyclone's reason).
-  static Expected<std::unique_ptr<Participant>> join(const Address& address, Incarnation self);
+  /// `role`: whose identity this must be in a secured run.
+  /// Errors: the identity is not fit or of another role, no way to the peers, DDS cannot start in this domain (with
+  /// Cyclone's reason).
+  static Expected<std::unique_ptr<Participant>> join(const Address& address, std::string_view role, Incarnation self);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;

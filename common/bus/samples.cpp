@@ -62,6 +62,19 @@ void reception_columns(Plain& plain, Sample& sample, Move move) {
 }
 
 template <class Plain, class Sample, class Move>
+void fates_columns(Plain& plain, Sample& sample, Move move) {
+  move(plain.fate, sample.fate), move(plain.due, sample.due), move(plain.latency_ms, sample.latency_ms);
+}
+
+template <class Plain, class Sample, class Move>
+void roadside_columns(Plain& plain, Sample& sample, Move move) {
+  frames_columns(plain.frames, sample.frames, move);
+  reception_columns(plain.reception, sample.reception, move);
+  fates_columns(plain.uplink, sample.uplink, move);
+  move(plain.request_lanes, sample.request_lanes), move(plain.request_lifetime, sample.request_lifetime);
+}
+
+template <class Plain, class Sample, class Move>
 void signal_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.heads, sample.heads), move(plain.change_lane, sample.change_lane);
   move(plain.change_aspect, sample.change_aspect), move(plain.change_step, sample.change_step);
@@ -95,7 +108,15 @@ void traffic_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.fate_again, sample.fate_again), move(plain.fate_issued, sample.fate_issued);
   move(plain.fate_commanded_mps2, sample.fate_commanded_mps2), move(plain.heard_epoch, sample.heard_epoch);
   move(plain.fate_kind, sample.fate_kind), move(plain.fate_speed_mps, sample.fate_speed_mps);
-  move(plain.computing_ms, sample.computing_ms);
+  move(plain.computing_ms, sample.computing_ms), move(plain.uplink_vehicle, sample.uplink_vehicle);
+  move(plain.uplink_rsu, sample.uplink_rsu), move(plain.said_rsu, sample.said_rsu);
+  move(plain.asked_rsu, sample.asked_rsu), move(plain.asked_lanes, sample.asked_lanes);
+  move(plain.asked_lifetime, sample.asked_lifetime);
+  fates_columns(plain.uplink, sample.uplink, move);
+  reception_columns(plain.reception, sample.reception, move);
+  frames_columns(plain.air, sample.air, move);
+  sensed_columns(plain.sensed, sample.sensed, move);
+  frames_columns(plain.said, sample.said, move);
 }
 
 template <class Plain, class Sample, class Move>
@@ -119,7 +140,8 @@ void view_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.next_aspect, sample.next_aspect), move(plain.radio_direction, sample.radio_direction);
   move(plain.radio_kind, sample.radio_kind), move(plain.radio_sent, sample.radio_sent);
   move(plain.radio_heard, sample.radio_heard), move(plain.radio_lost, sample.radio_lost);
-  move(plain.radio_latency_ms, sample.radio_latency_ms);
+  move(plain.radio_latency_ms, sample.radio_latency_ms), move(plain.uplink, sample.uplink);
+  move(plain.heard_step, sample.heard_step);
 }
 
 constexpr auto kLend = [](const auto& column, auto& sequence) { lend_column(column, sequence); };
@@ -146,8 +168,7 @@ void lend(const RoadsideBatch& batch, lukou_bus_Roadside& sample, Scratch&) {
   sample.frames_malformed = batch.frames_malformed;
   sample.answers_malformed = batch.answers_malformed;
   sample.computing_ms = batch.computing_ms;
-  frames_columns(batch.frames, sample.frames, kLend);
-  reception_columns(batch.reception, sample.reception, kLend);
+  roadside_columns(batch, sample, kLend);
   sample.requests_refused = batch.requests_refused;
 }
 
@@ -159,8 +180,7 @@ void copy(const lukou_bus_Roadside& sample, RoadsideBatch& batch) {
   batch.frames_malformed = sample.frames_malformed;
   batch.answers_malformed = sample.answers_malformed;
   batch.computing_ms = sample.computing_ms;
-  frames_columns(batch.frames, sample.frames, kCopy);
-  reception_columns(batch.reception, sample.reception, kCopy);
+  roadside_columns(batch, sample, kCopy);
   batch.requests_refused = sample.requests_refused;
 }
 
@@ -195,7 +215,6 @@ void lend(const TrafficBatch& batch, lukou_bus_Traffic& sample, Scratch&) {
   sample.guard_interventions = batch.guard_interventions;
   sample.overflow = batch.overflow;
   traffic_columns(batch, sample, kLend);
-  reception_columns(batch.reception, sample.reception, kLend);
   sample.requests_refused = batch.requests_refused;
 }
 
@@ -205,7 +224,6 @@ void copy(const lukou_bus_Traffic& sample, TrafficBatch& batch) {
   batch.guard_interventions = sample.guard_interventions;
   batch.overflow = sample.overflow;
   traffic_columns(batch, sample, kCopy);
-  reception_columns(batch.reception, sample.reception, kCopy);
   batch.requests_refused = sample.requests_refused;
 }
 

@@ -250,7 +250,7 @@ void ClockCore::gone(double now_s, Incarnation incarnation) {
   refused_s_.erase(incarnation);
   // Under a debugger a process stands still for minutes: only the launcher's word counts then.
   if (members_.contains(incarnation) && settings_.watchdog) {
-    lost(now_s, incarnation, RunOutcome::Kind::kLost, "is gone: its process ended or does not run any more");
+    lost(now_s, incarnation, RunOutcome::Kind::kLost, "is gone: its process ended, stands still or cannot be reached");
   }
 }
 

@@ -22,9 +22,10 @@ bool View::well_formed() const {
                            f.stops.size(), f.throughput_veh_per_h.size(), f.stops_per_vehicle.size(),
                            f.stop_time_s.size(), f.mean_stop_time_s.size(), f.mean_delay_s.size()}) &&
          all_are(kLanes, {queue.size()}) && all_are(kApproaches, {arrived.size(), waiting.size()}) &&
-         all_are(vehicle.size(), {lane.size(), state.size(), equipped.size(), position_m.size(), speed_mps.size(),
-                                  acceleration_mps2.size(), commanded_mps2.size(), guidance.size(), bound_by.size(),
-                                  missed.size(), standing_steps.size(), advice_step.size()}) &&
+         all_are(vehicle.size(),
+                 {lane.size(), state.size(), equipped.size(), position_m.size(), speed_mps.size(),
+                  acceleration_mps2.size(), commanded_mps2.size(), guidance.size(), bound_by.size(), missed.size(),
+                  standing_steps.size(), advice_step.size(), uplink.size(), heard_step.size()}) &&
          (heads.empty() || heads.size() == kLanes) && all_are(heads.size(), {change_step.size(), next_aspect.size()}) &&
          all_are(radio_direction.size(),
                  {radio_kind.size(), radio_sent.size(), radio_heard.size(), radio_latency_ms.size()}) &&

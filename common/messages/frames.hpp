@@ -28,6 +28,8 @@ struct Frames {
     const std::size_t begin = frame == 0 ? 0 : payload_end[frame - 1];
     return std::span(payload).subspan(begin, payload_end[frame] - begin);
   }
+  /// Adds the frames of others behind these.
+  void append(const Frames& others);
   void clear() {
     sender.clear(), sequence.clear(), kind.clear(), wire_bytes.clear();
     antenna_x_m.clear(), antenna_y_m.clear(), payload_end.clear(), payload.clear();

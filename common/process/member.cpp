@@ -30,7 +30,7 @@ int MemberEnd::exit_code() const {
 }
 
 Expected<std::unique_ptr<Member>> Member::create(Settings settings) {
-  auto participant = bus::Participant::join(settings.address, new_incarnation());
+  auto participant = bus::Participant::join(settings.address, settings.role, new_incarnation());
   if (!participant) return participant.error();
   return std::unique_ptr<Member>(new Member(std::move(settings), std::move(participant).value()));
 }
@@ -71,9 +71,9 @@ Expected<std::string> Member::join() {
     participant_->wait(kJoinAgain_s / 5);
     poll();
     if (settings_.watchdog && wall_s() - begin_s > settings_.join_limit_s) {
-      return Error{"run " + settings_.address.run,
-                   "no clock answers in DDS domain " + std::to_string(settings_.address.domain) +
-                       " under the tag lukou-" + settings_.address.run + "; `lukou ctl list` names the runs"};
+      return Error{"run " + settings_.address.run, "no clock answers in DDS domain " +
+                                                       std::to_string(settings_.address.domain) + " under the tag " +
+                                                       settings_.address.tag() + "; `lukou ctl list` names the runs"};
     }
   }
   if (refused_) return *refused_;

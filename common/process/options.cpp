@@ -2,9 +2,19 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/process/address_options.hpp"
 #include "common/process/environment.hpp"
 
 namespace lukou::process {
+
+void add_address_options(CLI::App& app, bus::Address& address) {
+  app.add_option("--identity", address.identity, "folder of this process's identity in a secured run")
+      ->envname("LUKOU_IDENTITY");
+  app.add_option("--peers", address.peers, "addresses of the run's hosts, separated by commas [loopback only]")
+      ->envname("LUKOU_PEERS")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
 
 Expected<MemberOptions> member_options(int argc, char** argv, const std::string& about,
                                        const std::vector<OptionRule>& rules) {
@@ -15,6 +25,7 @@ Expected<MemberOptions> member_options(int argc, char** argv, const std::string&
       ->envname("LUKOU_DOMAIN")
       ->required()
       ->check(CLI::Range(0, 230));
+  add_address_options(app, options.address);
   std::map<std::string, std::string> values;
   std::map<std::string, bool> flags;
   for (const OptionRule& rule : rules) {

@@ -9,7 +9,7 @@
 
 namespace lukou::process {
 
-/// An option of a member program beside --run and --domain.
+/// An option of a member program beside --run, --domain, --identity and --peers.
 struct OptionRule {
   std::string name;  ///< "--out"
   std::string help;
@@ -27,7 +27,8 @@ struct MemberOptions {
   [[nodiscard]] std::string value(const std::string& name) const { return has(name) ? values.at(name) : ""; }
 };
 
-/// Reads the command line of a member program. --run and --domain default to LUKOU_RUN and LUKOU_DOMAIN.
+/// Reads the command line of a member program. --run, --domain, --identity and --peers default to LUKOU_RUN,
+/// LUKOU_DOMAIN, LUKOU_IDENTITY and LUKOU_PEERS.
 /// Prints the help or the usage error itself: then the error holds the exit code as text.
 Expected<MemberOptions> member_options(int argc, char** argv, const std::string& about,
                                        const std::vector<OptionRule>& rules);

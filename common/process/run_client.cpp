@@ -13,7 +13,7 @@ constexpr double kAskAgain_s = 0.2;
 }  // namespace
 
 Expected<std::unique_ptr<RunClient>> RunClient::attach(const bus::Address& address, bool with_view, Incarnation self) {
-  auto participant = bus::Participant::join(address, self == 0 ? new_incarnation() : self);
+  auto participant = bus::Participant::join(address, kObserverRole, self == 0 ? new_incarnation() : self);
   if (!participant) return participant.error();
   return std::unique_ptr<RunClient>(new RunClient(std::move(participant).value(), with_view, clock_of(address)));
 }

@@ -3,8 +3,53 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 namespace lukou::process {
+namespace {
+
+constexpr std::string_view kSocketPrefix = "lukou/run/";
+constexpr std::string_view kSecured = "secured";
+constexpr std::string_view kHosts = "hosts";
+
+/// "<run>/<domain>/<clock>", then "/secured" and "/hosts" if it is so.
+ListedRun parsed(const std::string& name) {
+  std::stringstream parts(name);
+  ListedRun run;
+  std::string part;
+  std::getline(parts, run.run, '/');
+  if (std::getline(parts, part, '/')) run.domain = std::atoi(part.c_str());
+  if (std::getline(parts, part, '/')) run.clock = std::strtoull(part.c_str(), nullptr, 16);
+  while (std::getline(parts, part, '/')) {
+    run.secured = run.secured || part == kSecured;
+    run.hosts = run.hosts || part == kHosts;
+  }
+  return run;
+}
+
+Expected<bus::Address> address_of(const ListedRun& listed, const bus::Address& given) {
+  if (listed.secured && given.identity.empty()) {
+    return Error{listed.run, "is secured: --identity KEYS/observer, or LUKOU_IDENTITY"};
+  }
+  if (!listed.secured && !given.identity.empty()) return Error{listed.run, "is not secured: give no --identity"};
+  if (listed.hosts && given.peers.empty()) {
+    return Error{listed.run, "is spread over several hosts: --peers, or LUKOU_PEERS, with their addresses"};
+  }
+  bus::Address address = given;
+  address.domain = listed.domain;
+  address.run = listed.run;
+  return address;
+}
+
+}  // namespace
+
+std::string socket_name(const ListedRun& run) {
+  std::string name =
+      std::string(kSocketPrefix) + run.run + "/" + std::to_string(run.domain) + "/" + bus::text_of(run.clock);
+  if (run.secured) name.append("/").append(kSecured);
+  if (run.hosts) name.append("/").append(kHosts);
+  return name;
+}
 
 std::vector<std::string> bound_names(std::string_view prefix) {
   const std::string wanted = " @" + std::string(prefix);
@@ -20,19 +65,11 @@ std::vector<std::string> bound_names(std::string_view prefix) {
 
 std::vector<ListedRun> list_runs() {
   std::vector<ListedRun> runs;
-  for (const std::string& name : bound_names(kRunSocketPrefix)) {
-    const auto clock = name.rfind('/');
-    const auto domain = clock == std::string::npos || clock == 0 ? clock : name.rfind('/', clock - 1);
-    if (domain == std::string::npos) continue;
-    runs.push_back({name.substr(0, domain), std::atoi(name.c_str() + domain + 1),
-                    std::strtoull(name.c_str() + clock + 1, nullptr, 16)});
+  for (const std::string& name : bound_names(kSocketPrefix)) {
+    if (const ListedRun run = parsed(name); run.domain >= 0) runs.push_back(run);
   }
   std::ranges::sort(runs, {}, &ListedRun::run);
   return runs;
-}
-
-std::string run_socket_name(const std::string& run, int domain, Incarnation clock) {
-  return std::string(kRunSocketPrefix) + run + "/" + std::to_string(domain) + "/" + bus::text_of(clock);
 }
 
 Incarnation clock_of(const bus::Address& address) {
@@ -41,17 +78,23 @@ Incarnation clock_of(const bus::Address& address) {
   return 0;
 }
 
-Expected<ListedRun> find_run(const std::string& name) {
+Expected<bus::Address> find_run(const std::string& name, const bus::Address& given) {
   std::vector<ListedRun> matching;
   std::string all;
   for (const ListedRun& run : list_runs()) {
     all += " " + run.run;
-    if (run.run == name) return run;
+    if (run.run == name) return address_of(run, given);
     if (run.run.starts_with(name)) matching.push_back(run);
   }
-  if (matching.size() == 1) return matching.front();
-  if (all.empty()) return Error{name, "no run on this host"};
-  return Error{name, (matching.empty() ? "no run of this name; there are:" : "several runs begin so:") + all};
+  if (matching.size() == 1) return address_of(matching.front(), given);
+  if (matching.size() > 1) return Error{name, "several runs begin so:" + all};
+  if (given.domain >= 0) {
+    bus::Address elsewhere = given;
+    elsewhere.run = name;
+    return elsewhere;
+  }
+  if (all.empty()) return Error{name, "no run on this host; one of another host needs --domain, too"};
+  return Error{name, "no run of this name; there are:" + all};
 }
 
 }  // namespace lukou::process

@@ -10,6 +10,7 @@
 #include "common/results/result_folder.hpp"
 #include "common/results/table_reader.hpp"
 #include "common/results/tables.hpp"
+#include "common/run_log/run_log_reader.hpp"
 
 namespace lukou::results {
 namespace {
@@ -31,6 +32,7 @@ class Inspector {
     table(kCarTable, car_columns(), no_check);
     event_tables();
     required_files();
+    log_of_steps();
     const auto files = result_files(folder_);
     if (!files) return files.error();
     if (found_.manifest) compare(*found_.manifest, files.value());
@@ -110,11 +112,31 @@ class Inspector {
     }
   }
 
+  /// A log that a death has cut off may end before the tables, a whole one goes as far as they do.
+  void log_of_steps() {
+    std::error_code code;
+    if (!fs::is_regular_file(folder_ / run_log::kRunLog, code)) return;
+    const auto log = run_log::RunLogReader::open(folder_);
+    if (!log) return add(run_log::kRunLog, log.error().what, false);
+    if (!log.value().file().finished()) {
+      add(run_log::kRunLog, "has no end; the run was cut off", true);
+    }
+    const Step last = log.value().last_step();
+    if (last > found_.complete_to_step || (ended_whole() && last < found_.complete_to_step)) {
+      add(run_log::kRunLog,
+          "goes to step " + std::to_string(last) + ", the tables to step " + std::to_string(found_.complete_to_step),
+          last > found_.complete_to_step);
+    }
+  }
+
+  /// Whether the recorder could close everything.
+  [[nodiscard]] bool ended_whole() const {
+    return found_.manifest && (found_.manifest->ended_by == "done" || found_.manifest->ended_by == "stopped");
+  }
+
   void required_files() {
     std::vector<std::string> names = {"scenario.textproto"};
-    const bool ended_whole =
-        found_.manifest && (found_.manifest->ended_by == "done" || found_.manifest->ended_by == "stopped");
-    if (ended_whole) names.insert(names.end(), {"directives.textproto", "summary.json"});
+    if (ended_whole()) names.insert(names.end(), {"directives.textproto", "summary.json"});
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) {
       std::error_code code;

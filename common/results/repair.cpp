@@ -13,6 +13,8 @@
 #include "common/results/result_folder.hpp"
 #include "common/results/table_reader.hpp"
 #include "common/results/tables.hpp"
+#include "common/run_log/repair.hpp"
+#include "common/run_log/run_log.hpp"
 
 namespace lukou::results {
 namespace {
@@ -129,6 +131,9 @@ Expected<Manifest> repair(const fs::path& folder, const Manifest& facts) {
   manifest.complete_to_step = *std::min_element(complete.begin(), complete.end());
   const auto done = cut_tables(folder, names, manifest.complete_to_step);
   if (!done) return done.error();
+  if (fs::is_regular_file(folder / run_log::kRunLog, code)) {
+    if (auto log = run_log::repair(folder / run_log::kRunLog, manifest.complete_to_step); !log) return log.error();
+  }
   auto files = result_files(folder);
   if (!files) return files.error();
   manifest.files = std::move(files).value();

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/scenario/file.hpp"
-#include "scenario.pb.h"
+#include "directives.pb.h"
 
 namespace lukou::scenario {
 namespace {

@@ -18,4 +18,8 @@ Protocol protocol(const Resolved& scenario) {
           .rsu_measured = std::move(measured)};
 }
 
+bool is_actuated(const Resolved& scenario) { return scenario.message().signals().has_actuation(); }
+
+bool logs_everything(const Resolved& scenario) { return scenario.message().record().log() == Record::FULL; }
+
 }  // namespace lukou::scenario

@@ -21,6 +21,10 @@ struct Protocol {
   [[nodiscard]] bool measures_time() const { return std::ranges::find(rsu_measured, true) != rsu_measured.end(); }
 };
 Protocol protocol(const Resolved& scenario);
+/// Whether the record holds every car in every step, and all that was sent: record.log=FULL.
+bool logs_everything(const Resolved& scenario);
+/// Whether RSUs may ask for greens.
+bool is_actuated(const Resolved& scenario);
 inline Step signal_promise(const Resolved& scenario) { return protocol(scenario).signal_promise; }
 
 /// Applies accepted changes ("path=value") in their order; true if there was one. They were checked by the clock, so a

@@ -186,7 +186,7 @@ int run(int argc, char** argv) {
 
   const Incarnation given = incarnation_in(options.value().value("--incarnation"));
   const auto participant =
-      bus::Participant::join(options.value().address, given != 0 ? given : process::new_incarnation());
+      bus::Participant::join(options.value().address, kClockRole, given != 0 ? given : process::new_incarnation());
   if (!participant) return process::report_start(participant.error(), process::kExitAborted);
   settings.value().incarnation = participant.value()->self();
   settings.value().launcher = incarnation_in(options.value().value("--launcher"));

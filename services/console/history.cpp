@@ -35,6 +35,10 @@ void Past::add(const Event& event) {
   if (events_.size() > kEventsMax) events_.erase(events_.begin());
 }
 
+void Past::forget_from(Step step) {
+  std::erase_if(samples_, [step](const Statistics& sample) { return sample.step() >= step; });
+}
+
 std::size_t Past::samples() const { return samples_.size(); }
 
 History Past::message() const {

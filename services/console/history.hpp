@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "common/core/step.hpp"
+
 namespace lukou::console {
 
 class Event;
@@ -20,6 +22,8 @@ class Past {
 
   void add(const Statistics& sample);
   void add(const Event& event);
+  /// Time has gone back to before `step`: samples from there on will come again.
+  void forget_from(Step step);
   [[nodiscard]] History message() const;
   [[nodiscard]] std::size_t samples() const;
 

@@ -16,6 +16,8 @@ constexpr std::size_t kRequestsMax = 64;  ///< not answered yet, of all viewers
 constexpr std::size_t kRequestBytesMax = 32U << 10U;
 /// What a viewer may ask of the clock; other requests of the bus are not the page's business.
 constexpr std::array<std::string_view, 6> kVerbs = {"pause", "resume", "step", "pace", "stop", "set"};
+/// The same of a recording.
+constexpr std::array<std::string_view, 6> kReplayVerbs = {"pause", "resume", "step", "pace", "stop", "seek"};
 
 Bytes bytes_of(const ToPage& message) { return std::make_shared<const std::string>(message.SerializeAsString()); }
 
@@ -29,15 +31,28 @@ Event event_of(Step step, const std::string& kind, const std::string& text) {
   return event;
 }
 
+/// The step in "... from step 51 (5.1 s)" or "at step 3000 (300.0 s)".
+std::optional<Step> step_in(const std::string& text) {
+  const std::size_t at = text.rfind(" step ");
+  Step step = 0;
+  if (at == std::string::npos ||
+      std::from_chars(text.data() + at + 6, text.data() + text.size(), step).ec != std::errc()) {
+    return std::nullopt;
+  }
+  return step;
+}
+
 /// Why the clock shall not hear this; empty: nothing is wrong.
-std::string wrong_with(const std::string& text) {
+std::string wrong_with(const std::string& text, bool recording) {
   if (text.size() > kRequestBytesMax) return "a request of more than 32 kB";
   if (text.find('\0') != std::string::npos) return "a request with a zero in it";
   const std::string verb = text.substr(0, text.find(' '));
-  for (const std::string_view known : kVerbs) {
+  for (const std::string_view known : recording ? kReplayVerbs : kVerbs) {
     if (verb == known) return "";
   }
-  return "`" + verb + "` is not a request; use pause, resume, step, pace, stop, set or restart";
+  if (recording && (verb == "set" || verb == "restart")) return "nothing can be changed in a recording";
+  return "`" + verb + "` is not a request; use pause, resume, step, pace, stop" +
+         (recording ? " or seek" : ", set or restart");
 }
 
 }  // namespace
@@ -59,6 +74,8 @@ void Hub::begin(RunStory story, const std::vector<Directive>& so_far) {
   figures_.reset();
   phase_ = RunPhase::kForming;
   step_ = -1;
+  sought_.reset();
+  seeks_ = 0;
   status_.clear();
   statistics_s_ = status_s_ = -1.0;
   for (auto& [id, viewer] : viewers_) viewer.forget();
@@ -74,7 +91,7 @@ void Hub::greet(ViewerId id, Viewer& viewer) {
   Hello& hello = *first.mutable_hello();
   hello = story_->hello();
   hello.set_viewer(id);
-  hello.set_may_restart(may_restart_);
+  hello.set_may_restart(may_restart_ && !story_->recorded_to());
   viewer.push(bytes_of(first));
   ToPage past;
   *past.mutable_history() = past_.message();
@@ -83,7 +100,8 @@ void Hub::greet(ViewerId id, Viewer& viewer) {
 
 void Hub::hear(const Control& control) {
   if (!story_) return;
-  for (std::size_t i = 0; i < control.directive_step.size(); ++i) {
+  // Of a recording all were known when it began.
+  for (std::size_t i = 0; i < control.directive_step.size() && !story_->recorded_to(); ++i) {
     add_directive({control.directive_step[i], control.directive_set[i]});
   }
   if (control.kind == Control::Kind::kFence) add_event(step_, "lost", rsu_role(control.rsu));
@@ -102,8 +120,18 @@ void Hub::add_directive(const Directive& directive) {
   add_event(directive.step, "directive", directive.set);
 }
 
+void Hub::jump(Step to) {
+  past_.forget_from(to);
+  ++seeks_;
+  sought_.reset();
+  pace_ = {};
+  statistics_s_ = -1.0;
+}
+
 void Hub::show(const View& view, double now_s) {
   if (!story_) return;
+  // Views of the place before the seek may still be under way.
+  if (view.step < step_ || (sought_ && *sought_ > step_ && view.step >= *sought_)) jump(view.step);
   pace_.note(now_s, view.step);
   rsus_heard_ = view.step > 0 ? view.heard_epoch : std::vector<std::uint32_t>();
   if (view.step == step_ && newest_[Viewer::kPicture].bytes) return;
@@ -128,6 +156,7 @@ void Hub::publish_figures(double now_s) {
   if (!figures_ || now_s - statistics_s_ < kStatisticsEvery_s) return;
   statistics_s_ = now_s;
   figures_->set_pace_achieved(pace_.pace());
+  figures_->set_seeks(seeks_);
   past_.add(*figures_);
   ToPage message;
   message.mutable_statistics()->Swap(figures_.get());
@@ -167,13 +196,12 @@ void Hub::answered(bool ok, const std::string& text) {
   const Asked asked = *std::exchange(under_way_, std::nullopt);
   reply(asked.viewer, asked.number, ok, text);
   if (!ok) return add_event(step_, "refused", text);
+  // "seek SECONDS" is answered with "at step N (T s)".
+  if (asked.text.starts_with("seek ")) sought_ = step_in(text);
   if (!asked.text.starts_with("set ")) return;
   // "set PATH=VALUE" is answered with "PATH=VALUE from step N (T s)".
   const std::string set = asked.text.substr(4);
-  Step from = step_ + 1;
-  if (const std::size_t at = text.rfind(" from step "); at != std::string::npos) {
-    std::from_chars(text.data() + at + 11, text.data() + text.size(), from);
-  }
+  const Step from = step_in(text).value_or(step_ + 1);
   told_.push_back(set);
   story_->change({from, set});
   add_event(from, "directive", set);
@@ -235,7 +263,8 @@ void Hub::ask(ViewerId viewer, const Request& request) {
     return refuse(holder == 0 ? "nobody has control; take it first" : viewer_text(holder) + " has control");
   }
   const std::string& text = request.text();
-  if (text.starts_with("restart ")) {
+  const bool recording = story_->recorded_to().has_value();
+  if (text.starts_with("restart ") && !recording) {
     if (!may_restart_) return refuse("nobody is there to restart this run; `lukou run --console` would be");
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data() + 8, text.data() + text.size(), seed);
@@ -245,7 +274,7 @@ void Hub::ask(ViewerId viewer, const Request& request) {
     add_event(step_, "phase", "restart with seed " + std::to_string(seed));
     return reply(viewer, request.number(), true, "restarts with seed " + std::to_string(seed));
   }
-  if (const std::string wrong = wrong_with(text); !wrong.empty()) return refuse(wrong);
+  if (const std::string wrong = wrong_with(text, recording); !wrong.empty()) return refuse(wrong);
   if (phase_ >= RunPhase::kEnded) return refuse("the run has ended");
   if (requests_.size() >= kRequestsMax) return refuse("too many requests wait for their answer");
   requests_.push_back({viewer, request.number(), text});

@@ -40,7 +40,7 @@ class Hub final : public Visitors {
   void show(const View& view, double now_s);
   void tell(const RunState& state, double clock_silent_s, double now_s);
 
-  // To the clock.
+  // To the clock, or to what replays a recording in its place.
   /// The oldest request that has not been passed on: from then on under way until answered().
   [[nodiscard]] std::optional<std::string> take_request();
   void answered(bool ok, const std::string& text);
@@ -72,6 +72,8 @@ class Hub final : public Visitors {
   void reply(ViewerId viewer, std::uint32_t number, bool ok, const std::string& text);
   void add_event(Step step, const std::string& kind, const std::string& text);
   void add_directive(const Directive& directive);
+  /// A recording goes on at another step.
+  void jump(Step to);
   void publish_hands();
   void publish_figures(double now_s);
   void publish(Viewer::State state, const ToPage& message);
@@ -96,6 +98,8 @@ class Hub final : public Visitors {
   std::vector<std::uint32_t> rsus_heard_;
   RunPhase phase_ = RunPhase::kForming;
   Step step_ = -1;
+  std::optional<Step> sought_;  ///< where a seek leads that has been answered, until the first view from there
+  std::uint32_t seeks_ = 0;
   double statistics_s_ = -1.0;
   double status_s_ = -1.0;
   std::string status_;  ///< what decides whether it is news

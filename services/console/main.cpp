@@ -1,8 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "common/process/address_options.hpp"
 #include "common/process/line_link.hpp"
 #include "common/process/run_client.hpp"
 #include "common/process/run_list.hpp"
@@ -21,6 +24,7 @@ constexpr double kGoodbye_s = 0.5;
 
 struct Options {
   std::string attach;
+  bus::Address given{.domain = -1};
   console::Listening listening;
   std::string token;
   std::filesystem::path page;
@@ -66,14 +70,20 @@ class Followed {
   Followed(std::unique_ptr<process::RunClient> client, std::string run, console::Hub& hub)
       : client_(std::move(client)), run_(std::move(run)), hub_(hub) {
     client_->on_control([this](const Control& control) { hear(control); });
-    client_->ask("scenario");
+    client_->ask("recording");
   }
 
   void hear(const Control& control) {
     if (begun_ && control.kind == Control::Kind::kReply) return hub_.answered(control.ok, control.text);
     if (begun_) return hub_.hear(control);
     if (control.kind != Control::Kind::kReply) return;  // what the answer will tell
-    auto story = console::RunStory::of(run_, control.text);
+    if (!asked_) {
+      // A clock knows no such request; what replays a recording answers with its last step.
+      if (control.ok) recorded_to_ = std::atoll(control.text.c_str());
+      asked_ = true;
+      return client_->ask("scenario");
+    }
+    auto story = console::RunStory::of(run_, control.text, recorded_to_);
     if (!story) return process::log_error(story.error().text());
     std::vector<Directive> so_far;
     for (std::size_t i = 0; i < control.directive_step.size(); ++i) {
@@ -86,6 +96,8 @@ class Followed {
   std::unique_ptr<process::RunClient> client_;
   std::string run_;
   console::Hub& hub_;
+  bool asked_ = false;  ///< whether this is a recording
+  std::optional<Step> recorded_to_;
   bool begun_ = false;
   std::uint64_t views_ = 0;
 };
@@ -101,9 +113,9 @@ class Console {
     if (!transport) return process::report_start(transport.error(), process::kExitUsage);
     transport_ = std::move(transport).value();
     if (!launched_) {
-      const auto listed = process::find_run(options_.attach);
-      if (!listed) return process::report_start(listed.error(), process::kExitUsage);
-      if (const auto attached = attach({listed.value().domain, listed.value().run}); !attached) {
+      const auto found = process::find_run(options_.attach, options_.given);
+      if (!found) return process::report_start(found.error(), process::kExitUsage);
+      if (const auto attached = attach(found.value()); !attached) {
         return process::report_start(attached.error(), process::kExitAborted);
       }
     }
@@ -140,7 +152,9 @@ class Console {
       // "run ID DOMAIN"
       const std::size_t space = line.rfind(' ');
       if (!line.starts_with("run ") || space <= 4) continue;
-      const bus::Address address{std::stoi(line.substr(space + 1)), line.substr(4, space - 4)};
+      bus::Address address = options_.given;
+      address.domain = std::stoi(line.substr(space + 1));
+      address.run = line.substr(4, space - 4);
       if (const auto attached = attach(address); !attached) process::log_error(attached.error().text());
     }
     if (hub_.viewers() != viewers_) {
@@ -178,6 +192,10 @@ int run(int argc, char** argv) {
   CLI::App app("The browser's view of a run, and the operator's hands");
   Options options{.page = page_folder()};
   app.add_option("--attach", options.attach, "id of a running simulation, or its beginning");
+  app.add_option("--domain", options.given.domain, "DDS domain id, of a run that another host has started")
+      ->envname("LUKOU_DOMAIN")
+      ->check(CLI::Range(0, 230));
+  process::add_address_options(app, options.given);
   app.add_option("--address", options.listening.address, "IP address to listen at; any but 127.0.0.1 needs --token")
       ->capture_default_str();
   app.add_option("--port", options.listening.port, "port to listen at; 0: any")->capture_default_str();

@@ -23,6 +23,9 @@ constexpr std::size_t kDirections = 3;
 
 std::string octets(const std::vector<std::uint8_t>& column) { return {column.begin(), column.end()}; }
 
+/// -1: it never was.
+std::int32_t steps_since(Step then, Step now) { return then < 0 ? -1 : static_cast<std::int32_t>(now - then); }
+
 template <class Column, class Field>
 void fill_floats(const Column& column, Field& field) {
   field.Reserve(static_cast<int>(column.size()));
@@ -93,14 +96,14 @@ Picture picture_of(const View& view) {
   for (const std::uint32_t steps : view.standing_steps) {
     picture.add_stood_s(static_cast<float>(steps) / static_cast<float>(kStepsPerSecond));
   }
-  for (const Step issued : view.advice_step) {
-    picture.add_advice_age(issued < 0 ? -1 : static_cast<std::int32_t>(view.step - issued));
-  }
+  for (const Step issued : view.advice_step) picture.add_advice_age(steps_since(issued, view.step));
   picture.set_heads(octets(view.heads));
   for (const Step at : view.change_step) {
     picture.add_change_in(at < 0 ? -1 : static_cast<std::int32_t>(at - view.step));
   }
   picture.set_next_aspect(octets(view.next_aspect));
+  picture.set_uplink(octets(view.uplink));
+  for (const Step sent : view.heard_step) picture.add_heard_age(steps_since(sent, view.step));
   picture.mutable_waiting()->Add(view.waiting.begin(), view.waiting.end());
   return picture;
 }

@@ -74,22 +74,26 @@ SignalProgram message_of(const SignalPlan& plan, Step offset) {
   return program;
 }
 
-Expected<RunStory> RunStory::of(const std::string& run, const std::string& scenario_text) {
+Expected<RunStory> RunStory::of(const std::string& run, const std::string& scenario_text,
+                                std::optional<Step> recorded_to) {
   auto scenario = scenario::load_text(scenario_text, "scenario of " + run, "/");
   if (!scenario) return scenario.error();
   auto plan = scenario::signal_plan(scenario.value());
   if (!plan) return plan.error();
-  const Step promise = scenario::signal_promise(scenario.value());
-  return RunStory(run, std::move(scenario).value(), scenario_text, std::move(plan).value(), promise);
+  return RunStory(run, std::move(scenario).value(), scenario_text, std::move(plan).value(), recorded_to);
 }
 
-RunStory::RunStory(std::string run, scenario::Resolved scenario, std::string text, SignalPlan plan, Step promise)
+RunStory::RunStory(std::string run, scenario::Resolved scenario, std::string text, SignalPlan plan,
+                   std::optional<Step> recorded_to)
     : run_(std::move(run)),
       scenario_(std::move(scenario)),
       text_(std::move(text)),
       latest_(plan),
       plans_(std::move(plan)),
-      promise_(promise) {}
+      promise_(scenario::signal_promise(scenario_)),
+      recorded_to_(recorded_to) {
+  for (const scenario::LiveValue& live : scenario::live_values(scenario_)) initial_[live.path] = live.value;
+}
 
 void RunStory::change(const Directive& directive) {
   // The clock has checked it; what this program cannot follow it leaves alone.
@@ -101,7 +105,7 @@ void RunStory::change(const Directive& directive) {
 }
 
 RunStory::Program RunStory::program_at(Step step) {
-  plans_.forget_before(step);
+  if (!recorded_to_) plans_.forget_before(step);
   const PlanSchedule::Running& running = plans_.running_at(step);
   // Of a plan with an offset a cycle is under way when it takes over.
   const Step begun = std::max<Step>(running.from, 0);
@@ -122,7 +126,11 @@ Hello RunStory::hello() const {
   hello.set_lane_width_m(kLaneWidth_m);
   hello.set_speed_limit_mps(s.vehicles().speed_limit_kmh() / 3.6);
   hello.set_step_s(1.0 / static_cast<double>(kStepsPerSecond));
-  for (const scenario::LiveValue& live : scenario::live_values(scenario_)) fill(*hello.add_live(), live);
+  for (const scenario::LiveValue& live : scenario::live_values(scenario_)) {
+    LiveField& field = *hello.add_live();
+    fill(field, live);
+    if (const auto initial = initial_.find(live.path); initial != initial_.end()) field.set_initial(initial->second);
+  }
   for (const scenario::Rsu& rsu : s.rsus()) {
     hello.add_rsus(rsu.algorithm());
     hello.add_antennas();  // at the centre of the junction
@@ -134,6 +142,7 @@ Hello RunStory::hello() const {
   }
   hello.set_conflicts(conflict_matrix());
   hello.set_seed(std::to_string(s.run().seed()));
+  if (recorded_to_) hello.set_recorded_to(*recorded_to_);
   return hello;
 }
 

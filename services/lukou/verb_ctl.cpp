@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "common/process/address_options.hpp"
 #include "common/process/environment.hpp"
 #include "common/process/run_client.hpp"
 #include "common/process/run_list.hpp"
@@ -15,13 +16,17 @@ constexpr double kAnswer_s = 5.0;
 
 struct CtlArguments {
   std::string run;
+  bus::Address given{.domain = -1};
   std::vector<std::string> request;
 };
 
 void list() {
   const auto runs = process::list_runs();
   if (runs.empty()) std::fprintf(stderr, "no run on this host\n");
-  for (const process::ListedRun& run : runs) std::printf("%s domain %d\n", run.run.c_str(), run.domain);
+  for (const process::ListedRun& run : runs) {
+    std::printf("%s domain %d%s%s\n", run.run.c_str(), run.domain, run.secured ? ", secured" : "",
+                run.hosts ? ", on several hosts" : "");
+  }
 }
 
 void print_state(const process::RunClient& client) {
@@ -67,10 +72,10 @@ int ctl(const CtlArguments& arguments) {
     list();
     return process::kExitDone;
   }
-  const auto run = process::find_run(arguments.run);
+  const auto run = process::find_run(arguments.run, arguments.given);
   if (!run) return report_errors(run.error());
   process::catch_stop_signals();
-  auto client = process::RunClient::attach({run.value().domain, run.value().run}, true);
+  auto client = process::RunClient::attach(run.value(), true);
   if (!client) return report_errors(client.error());
   std::string request;
   for (const std::string& word : arguments.request) request += (request.empty() ? "" : " ") + word;
@@ -90,6 +95,10 @@ Action add_ctl(CLI::App& app) {
   verb->add_option("run", arguments->run, "id of the run, or its beginning; or `list`")->required();
   verb->add_option("request", arguments->request,
                    "pause [at S] | resume | step [N] | pace X | stop [at S] | set PATH=VALUE | status | watch");
+  verb->add_option("--domain", arguments->given.domain, "DDS domain id, of a run that another host has started")
+      ->envname("LUKOU_DOMAIN")
+      ->check(CLI::Range(0, 230));
+  process::add_address_options(*verb, arguments->given);
   return [arguments] { return ctl(*arguments); };
 }
 

@@ -7,6 +7,7 @@
 #include "common/process/log.hpp"
 #include "common/scenario/directive_log.hpp"
 #include "common/scenario/scenario_steps.hpp"
+#include "services/lukou/keys/key_folder.hpp"
 #include "services/lukou/launch/console_process.hpp"
 #include "services/lukou/launch/run_request.hpp"
 #include "services/lukou/report/progress.hpp"
@@ -27,7 +28,10 @@ struct RunArguments {
   std::string replay;
   std::string stall_limit;
   std::string run_id;
-  int console = 0;  ///< port; 0 = no console
+  std::string keys;  ///< folder of `lukou keys`; "" = an unsecured run
+  std::vector<std::string> peers;
+  std::vector<std::string> prefixes;  ///< "ROLE=COMMAND"
+  int console = 0;                    ///< port; 0 = no console
   bool wait = false;
   bool no_watchdog = false;
   bool json = false;
@@ -54,9 +58,32 @@ Expected<Done> check_replay(const RunArguments& arguments, scenario::Resolved sc
   return Done{};
 }
 
+/// Hosts and keys, checked. Says which keys expire soon.
+Expected<launch::Reach> reach_of(const RunArguments& arguments, const scenario::Resolved& scenario,
+                                 const RsuOptions& rsu_options) {
+  const std::uint32_t rsus = scenario::protocol(scenario).rsus;
+  launch::Reach reach{.peers = arguments.peers};
+  auto prefixes = launch::prefixes(arguments.prefixes, rsus);
+  if (!prefixes) return prefixes.error();
+  reach.prefix_of = std::move(prefixes).value();
+  for (std::uint32_t rsu = 0; rsu < rsus; ++rsu) {
+    const auto own = rsu_options.of.find(rsu);
+    const bool waits = (own == rsu_options.of.end() ? rsu_options.all : own->second) == "wait";
+    if (waits && reach.prefix_of.contains(rsu_role(rsu))) {
+      return Error{"--prefix " + rsu_role(rsu), "nobody starts this RSU: --rsu wait"};
+    }
+  }
+  if (arguments.keys.empty()) return reach;
+  reach.keys = std::filesystem::absolute(arguments.keys);
+  const auto warnings = keys::check(reach.keys, rsus);
+  if (!warnings) return warnings.error();
+  for (const std::string& warning : warnings.value()) process::log_warning(warning);
+  return reach;
+}
+
 /// One run as the arguments ask for it. `console`: shows it; may be null.
 launch::RunReport run_once(const RunArguments& arguments, scenario::Resolved scenario, const RsuOptions& rsus,
-                           launch::ConsoleProcess* console) {
+                           const launch::Reach& reach, launch::ConsoleProcess* console) {
   const launch::RunRequest request{
       .scenario = std::move(scenario),
       .name = std::filesystem::path(arguments.scenario.scenario).stem().string(),
@@ -71,7 +98,8 @@ launch::RunReport run_once(const RunArguments& arguments, scenario::Resolved sce
       .stall_limit_s = arguments.stall_limit,
       .replay = arguments.replay.empty() ? "" : std::filesystem::absolute(arguments.replay),
       .observe = !arguments.quiet,
-      .console = console};
+      .console = console,
+      .reach = reach};
   report::Progress progress;
   const launch::Listener listener =
       arguments.quiet ? launch::Listener() : [&progress](const launch::RunNews& news) { progress.show(news); };
@@ -104,13 +132,15 @@ std::optional<std::uint64_t> linger(launch::ConsoleProcess& console) {
 }
 
 /// Runs under a console: again with another seed and a result folder of its own as often as a viewer asks.
-int run_with_console(RunArguments arguments, scenario::Resolved scenario, const RsuOptions& rsus) {
-  auto started = launch::ConsoleProcess::start(static_cast<std::uint16_t>(arguments.console));
+int run_with_console(RunArguments arguments, scenario::Resolved scenario, const RsuOptions& rsus,
+                     const launch::Reach& reach) {
+  auto started = launch::ConsoleProcess::start(static_cast<std::uint16_t>(arguments.console),
+                                               reach.environment(std::string(kObserverRole)));
   if (!started) return report_errors(started.error());
   launch::ConsoleProcess& console = started.value();
   const std::string out = arguments.out;
   for (int runs = 1;; ++runs) {
-    const launch::RunReport report = run_once(arguments, scenario, rsus, &console);
+    const launch::RunReport report = run_once(arguments, scenario, rsus, reach, &console);
     auto seed = report.restart;
     if (!seed) seed = linger(console);
     if (!seed || process::stop_signal() != 0) {
@@ -138,13 +168,20 @@ int run(RunArguments arguments) {
   }
   if (!arguments.quiet)
     for (const std::string& warning : scenario::warnings(scenario.value())) process::log_warning(warning);
-  if (arguments.mode == "in-process" && (!arguments.rsus.empty() || arguments.wait || arguments.console != 0)) {
-    return report_errors(
-        {"--mode in-process", "takes neither --rsu nor --wait nor --console: there are no processes to talk to"});
+  const bool alone = arguments.rsus.empty() && arguments.keys.empty() && arguments.peers.empty() &&
+                     arguments.prefixes.empty() && !arguments.wait && arguments.console == 0;
+  if (arguments.mode == "in-process" && !alone) {
+    return report_errors({"--mode in-process",
+                          "takes neither --rsu nor --wait, --console, --secure, --peers or --prefix: there are no "
+                          "processes to talk to"});
   }
+  const auto reach = reach_of(arguments, scenario.value(), rsus.value());
+  if (!reach) return report_errors(reach.error());
   process::catch_stop_signals();
-  if (arguments.console != 0) return run_with_console(arguments, std::move(scenario).value(), rsus.value());
-  return run_once(arguments, std::move(scenario).value(), rsus.value(), nullptr).exit_code;
+  if (arguments.console != 0) {
+    return run_with_console(arguments, std::move(scenario).value(), rsus.value(), reach.value());
+  }
+  return run_once(arguments, std::move(scenario).value(), rsus.value(), reach.value(), nullptr).exit_code;
 }
 
 }  // namespace
@@ -180,6 +217,16 @@ Action add_run(CLI::App& app) {
   verb->add_flag("--console{8080}", arguments->console,
                  "show the run in a browser; --console=PORT listens there, or at the next port that is free")
       ->check(CLI::Range(1, 65535));
+  verb->add_option("--secure", arguments->keys, "folder of `lukou keys init`: authenticated and encrypted")
+      ->type_name("DIR");
+  verb->add_option("--peers", arguments->peers, "addresses of the hosts of a run that is spread over several")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb->add_option("--prefix", arguments->prefixes,
+                   "start a role behind a command, as `ssh host` or `ip netns exec b`; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->type_name("ROLE=COMMAND");
   verb->add_flag("--no-watchdog", arguments->no_watchdog, "no deadlines: for a process under a debugger");
   verb->add_flag("--json", arguments->json, "one JSON object on standard output");
   verb->add_flag("--quiet", arguments->quiet, "no progress, no warnings");

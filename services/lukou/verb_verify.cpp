@@ -60,7 +60,7 @@ std::string fingerprint(const fs::path& folder) {
 std::optional<bus::Address> address_of(const std::string& run, const std::atomic<bool>& over) {
   while (!over) {
     for (const process::ListedRun& listed : process::list_runs())
-      if (listed.run == run) return bus::Address{listed.domain, run};
+      if (listed.run == run) return bus::Address{.domain = listed.domain, .run = run};
     process::sleep_s(0.01);
   }
   return std::nullopt;

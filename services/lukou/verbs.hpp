@@ -19,5 +19,9 @@ Action add_doctor(CLI::App& app);
 Action add_algorithms(CLI::App& app);
 Action add_new(CLI::App& app);
 Action add_why(CLI::App& app);
+Action add_replay(CLI::App& app);
+Action add_redrive(CLI::App& app);
+Action add_keys(CLI::App& app);
+Action add_leash(CLI::App& app);
 
 }  // namespace lukou

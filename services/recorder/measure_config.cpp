@@ -4,6 +4,22 @@
 #include "scenario.pb.h"
 
 namespace lukou {
+namespace {
+
+run_log::Level level_of(scenario::Record::Log log) {
+  switch (log) {
+    case scenario::Record::EVENTS:
+      return run_log::Level::kEvents;
+    case scenario::Record::SECOND:
+      return run_log::Level::kSecond;
+    case scenario::Record::FULL:
+      return run_log::Level::kFull;
+    default:
+      return run_log::Level::kNone;
+  }
+}
+
+}  // namespace
 
 RecorderConfig recorder_config(const scenario::Resolved& scenario) {
   const scenario::Scenario& s = scenario.message();
@@ -21,6 +37,7 @@ RecorderConfig recorder_config(const scenario::Resolved& scenario) {
   config.record_stops = s.record().stops();
   config.record_guidance = s.record().guidance();
   config.record_safety = s.record().safety();
+  config.log = level_of(s.record().log());
   config.actuated = s.signals().has_actuation();
   config.seed = protocol.seed;
   config.end = protocol.end;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/measures/run_measures.hpp"
+#include "common/run_log/run_log.hpp"
 #include "common/scenario/scenario.hpp"
 
 namespace lukou {
@@ -14,6 +15,7 @@ struct RecorderConfig {
   bool record_stops = true;
   bool record_guidance = false;
   bool record_safety = true;
+  run_log::Level log = run_log::Level::kNone;
   bool actuated = false;  ///< the controller hears requests for greens
   std::uint64_t seed = 0;
   Step end = 0;

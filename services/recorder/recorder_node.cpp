@@ -62,8 +62,17 @@ Expected<RecorderNode> RecorderNode::create(const scenario::Resolved& scenario, 
                                                       .requests = config.actuated,
                                                       .safety = config.record_safety});
   if (!events) return events.error();
-  return RecorderNode(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
-                      std::move(events).value());
+  RecorderNode node(config, scenario::hash(scenario), std::move(folder), std::move(tables).value(),
+                    std::move(events).value());
+  if (config.log == run_log::Level::kNone) return node;
+  auto log = run_log::RunLogWriter::create(node.folder_, {.level = config.log,
+                                                          .lukou_version = std::string(version()),
+                                                          .scenario = scenario::text(scenario),
+                                                          .scenario_hash = node.scenario_hash_,
+                                                          .steps_planned = config.end});
+  if (!log) return log.error();
+  node.run_log_.emplace(std::move(log).value());
+  return node;
 }
 
 RecorderNode::RecorderNode(const RecorderConfig& config, std::string scenario_hash, std::filesystem::path folder,
@@ -74,38 +83,37 @@ RecorderNode::RecorderNode(const RecorderConfig& config, std::string scenario_ha
       tables_(std::move(tables)),
       events_(std::move(events)),
       radio_(folder_),
-      measures_(config_.measures) {
+      picture_(config_.measures) {
   if (config_.record_safety) safety_.emplace(config_.measures.road, config_.measures.vehicle_length_m);
 }
 
 void RecorderNode::add(const std::vector<Directive>& directives) {
   log_.sets.insert(log_.sets.end(), directives.begin(), directives.end());
+  due_ = directives;
 }
 
 Expected<Done> RecorderNode::step(TrafficBatch& traffic, const SignalBatch* new_signal) {
+  if (auto done = picture_.add(traffic, new_signal); !done) return done;
+  step_ = traffic.step;
+  if (run_log_) {
+    if (auto done = run_log_->add(due_, new_signal, traffic); !done) return done;
+    due_.clear();
+  }
   if (new_signal != nullptr) {
-    if (!promise_.extend(new_signal->first, new_signal->heads)) {
-      return Error{"topic lukou/signal", "the batch of step " + std::to_string(new_signal->step) + " leaves a gap"};
-    }
-    heads_.take(*new_signal);
     if (auto done = requests_.add(*new_signal); !done) return done;
     for (const RequestRow& row : requests_.rows()) events_.add(row);
   }
   requests_.add_fixed_plan(traffic.requests_refused);
-  promise_.forget_before(traffic.step);
-  step_ = traffic.step;
-  measures_.add(traffic);
   note_hearing(traffic);
   note_computing(traffic);
-  for (const FinishedCar& car : measures_.finished()) tables_.add_car(car);
+  for (const FinishedCar& car : picture_.measures().finished()) tables_.add_car(car);
   add_events(traffic);
   if (step_ > 0) add_rows();
   look_for_anomaly(traffic);
-  reception_.add(traffic.reception);
   if (step_ > 0 && step_ % kStepsPerSecond == 0) {
-    if (auto done = add_radio_rows(); !done) return done;
+    if (auto done = add_radio_rows(picture_.last_second()); !done) return done;
   }
-  std::swap(picture_, traffic);
+  picture_.keep(traffic);
   if (tables_.buffered_bytes() + events_.buffered_bytes() < kFlushBytes) return Done{};
   return flush();
 }
@@ -117,7 +125,7 @@ Expected<Done> RecorderNode::flush() {
 }
 
 void RecorderNode::add_events(const TrafficBatch& traffic) {
-  for (const FinishedStop& stop : measures_.finished_stops()) events_.add(stop);
+  for (const FinishedStop& stop : picture_.measures().finished_stops()) events_.add(stop);
   if (safety_) {
     safety_->add(traffic);
     for (const Encounter& encounter : safety_->finished()) events_.add(encounter);
@@ -127,10 +135,9 @@ void RecorderNode::add_events(const TrafficBatch& traffic) {
   for (const SettledAdvice& advice : ledger_.settled()) events_.add(advice);
 }
 
-Expected<Done> RecorderNode::add_radio_rows() {
+Expected<Done> RecorderNode::add_radio_rows(const std::vector<ReceptionFigures>& second) {
   radio_rows_to_ = step_;
-  last_second_ = reception_.take();
-  for (const ReceptionFigures& figures : last_second_) {
+  for (const ReceptionFigures& figures : second) {
     if (auto done = radio_.add(step_, row_of(figures)); !done) return done;
   }
   return Done{};
@@ -141,17 +148,17 @@ void RecorderNode::add_rows() {
   results::RoadRow road;
   results::StopTimeRow stop_time;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const LaneTotals& totals = measures_.lanes()[lane];
+    const LaneTotals& totals = picture_.measures().lanes()[lane];
     stop.system_total += stop.stops[lane] = totals.stops;
     stop.standing_now += totals.standing_now;
     road.left_lanes_total += road.crossed[lane] = totals.crossed;
     stop_time.system_total_steps += stop_time.stood_steps[lane] = static_cast<std::int64_t>(totals.standing_steps);
   }
   // 0 / 0 is not a number: not known yet.
-  const auto entered = static_cast<double>(measures_.entered());
+  const auto entered = static_cast<double>(picture_.measures().entered());
   stop.mean_per_vehicle = static_cast<double>(stop.system_total) / entered;
   road.mean_per_lane = static_cast<double>(road.left_lanes_total) / kLanes;
-  road.left_system_total = measures_.left();
+  road.left_system_total = picture_.measures().left();
   stop_time.mean_per_vehicle_s = static_cast<double>(stop_time.system_total_steps) / 10.0 / entered;
   tables_.add_step(step_, stop, road, stop_time);
 }
@@ -181,29 +188,21 @@ void RecorderNode::note_computing(const TrafficBatch& traffic) {
 
 void RecorderNode::look_for_anomaly(const TrafficBatch& traffic) {
   if (anomaly_) return;
-  if (measures_.collisions() > 0) {
+  if (picture_.measures().collisions() > 0) {
     anomaly_ = "collision";
   } else if (traffic.overflow != 0 && config_.stop_on_overflow) {
     anomaly_ = "overflow";
   }
 }
 
-void RecorderNode::fill(View& view) const {
-  view.step = step_;
-  fill_cars(view, picture_, measures_);
-  fill_figures(view, measures_);
-  fill_radio(view, last_second_);
-  heads_.fill(view, promise_);
-}
-
 Expected<Done> RecorderNode::close(const std::string& ended_by, const std::string& culprit) {
   const Step complete_to = std::max<Step>(step_, 0);
   if (complete_to < config_.end && (ended_by == "stopped" || ended_by == "interrupted")) log_.stop = complete_to;
   if (complete_to > radio_rows_to_) {
-    if (auto done = add_radio_rows(); !done) return done;  // the second that the end has cut short
+    if (auto done = add_radio_rows(picture_.cut_second()); !done) return done;
   }
   // What lasts at the end ends with it.
-  for (const FinishedStop& stop : measures_.lasting_stops()) events_.add(stop);
+  for (const FinishedStop& stop : picture_.measures().lasting_stops()) events_.add(stop);
   for (const SettledAdvice& advice : ledger_.close()) events_.add(advice);
   SummaryExtras extras;
   if (safety_) {
@@ -213,12 +212,15 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
   if (auto done = radio_.sync(); !done) return done;
   if (auto done = events_.sync(); !done) return done;
   if (auto done = tables_.sync(); !done) return done;
+  if (run_log_) {
+    if (auto done = run_log_->close(); !done) return done;
+  }
   if (config_.actuated || requests_.figures().asked > 0) extras.requests = requests_.figures();
   if (std::ranges::find(config_.rsu_measured, true) != config_.rsu_measured.end()) {
     extras.deadline_misses = deadline_misses_;
   }
-  const std::string summary =
-      summary_json(measures_.figures(), complete_to, config_.measures.warmup_s, reception_.any(), extras);
+  const std::string summary = summary_json(picture_.measures().figures(), complete_to, config_.measures.warmup_s,
+                                           picture_.radio_modelled(), extras);
   const std::string directives = scenario::text(log_);
   if (auto done = results::write_file(folder_ / "summary.json", summary); !done) return done;
   if (auto done = results::write_file(folder_ / "directives.textproto", directives); !done) return done;
@@ -232,6 +234,7 @@ Expected<Done> RecorderNode::close(const std::string& ended_by, const std::strin
                              .files = tables_.entries()};
   for (results::FileEntry& entry : events_.entries()) manifest.files.push_back(std::move(entry));
   if (auto entry = radio_.entry()) manifest.files.push_back(*entry);
+  if (run_log_) manifest.files.push_back({run_log::kRunLog, run_log_->sha256(), std::nullopt});
   manifest.files.push_back({"directives.textproto", sha256_hex(directives), std::nullopt});
   manifest.files.push_back({"scenario.textproto", scenario_hash_, std::nullopt});
   manifest.files.push_back({"summary.json", sha256_hex(summary), std::nullopt});

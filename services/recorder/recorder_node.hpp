@@ -7,18 +7,17 @@
 
 #include "common/bus/batches.hpp"
 #include "common/core/expected.hpp"
-#include "common/intersection/signal_promise.hpp"
 #include "common/lockstep/messages.hpp"
 #include "common/measures/advice_ledger.hpp"
-#include "common/measures/reception_measures.hpp"
 #include "common/measures/request_ledger.hpp"
 #include "common/measures/safety_measures.hpp"
 #include "common/results/event_tables.hpp"
 #include "common/results/radio_table.hpp"
 #include "common/results/tables.hpp"
+#include "common/run_log/run_log_writer.hpp"
 #include "common/scenario/directive_log.hpp"
 #include "services/recorder/measure_config.hpp"
-#include "services/recorder/view_columns.hpp"
+#include "services/recorder/run_picture.hpp"
 
 namespace lukou {
 
@@ -40,7 +39,7 @@ class RecorderNode {
   Expected<Done> flush();
   [[nodiscard]] Step complete_to() const { return step_; }
   /// What observers see.
-  void fill(View& view) const;
+  void fill(View& view) const { picture_.fill(view); }
 
   /// Writes everything down and the manifest last. `ended_by` as results::Manifest says; `culprit`: for people.
   Expected<Done> close(const std::string& ended_by, const std::string& culprit);
@@ -51,7 +50,7 @@ class RecorderNode {
   void add_rows();
   void add_events(const TrafficBatch& traffic);
   /// Rows of radio.csv for the second that ends now.
-  Expected<Done> add_radio_rows();
+  Expected<Done> add_radio_rows(const std::vector<ReceptionFigures>& second);
   void note_hearing(const TrafficBatch& traffic);
   /// Measured computing times, and the deadlines that they missed.
   void note_computing(const TrafficBatch& traffic);
@@ -63,19 +62,16 @@ class RecorderNode {
   results::RunTables tables_;
   results::EventTables events_;
   results::RadioTable radio_;
-  RunMeasures measures_;
+  RunPicture picture_;
   std::optional<SafetyMeasures> safety_;  ///< empty: not recorded
   AdviceLedger ledger_;
-  ReceptionMeasures reception_;
   RequestLedger requests_;
-  std::vector<ReceptionFigures> last_second_;  ///< the newest rows of radio.csv
-  Step radio_rows_to_ = 0;                     ///< their step
-  SignalPromise promise_;
-  HeadForecast heads_;
+  Step radio_rows_to_ = 0;  ///< step of the newest rows of radio.csv
   scenario::DirectiveLog log_;
+  std::optional<run_log::RunLogWriter> run_log_;  ///< empty: none is asked for
+  std::vector<Directive> due_;                    ///< directives of the step that comes next
   std::uint64_t deadline_misses_ = 0;
   std::vector<std::uint32_t> heard_epoch_;  ///< per RSU, as the engine said last
-  TrafficBatch picture_;                    ///< the newest step
   std::optional<std::string> anomaly_;
   Step step_ = -1;
 };

@@ -24,7 +24,7 @@ void add(FigureColumns& columns, const GroupNow& group) {
 
 }  // namespace
 
-void fill_cars(View& view, const TrafficBatch& traffic, const RunMeasures& measures) {
+void fill_cars(View& view, const TrafficBatch& traffic, const RunMeasures& measures, const UplinkWatch& uplink) {
   view.arrived = traffic.arrived;
   view.waiting = traffic.waiting;
   view.heard_epoch = traffic.heard_epoch;
@@ -41,10 +41,15 @@ void fill_cars(View& view, const TrafficBatch& traffic, const RunMeasures& measu
   view.missed = traffic.missed;
   view.standing_steps.clear();
   view.advice_step.clear();
-  for (const std::uint32_t vehicle : traffic.vehicle) {
-    const CarNow car = measures.now(vehicle);
+  view.uplink.clear();
+  view.heard_step.clear();
+  for (std::size_t i = 0; i < traffic.vehicle.size(); ++i) {
+    const CarNow car = measures.now(traffic.vehicle[i]);
     view.standing_steps.push_back(car.standing_steps);
     view.advice_step.push_back(car.newest_advice);
+    const CarUplink heard = uplink.now(traffic, i);
+    view.uplink.push_back(heard.newest);
+    view.heard_step.push_back(heard.heard_step);
   }
 }
 

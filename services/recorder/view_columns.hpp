@@ -8,13 +8,14 @@
 #include "common/lockstep/messages.hpp"
 #include "common/measures/reception_measures.hpp"
 #include "common/measures/run_measures.hpp"
+#include "common/measures/uplink_watch.hpp"
 
 // What observers see, column by column. Nothing is computed here: the figures are those of the measures.
 
 namespace lukou {
 
 /// The cars of the newest step. Requires measures that have taken `traffic`.
-void fill_cars(View& view, const TrafficBatch& traffic, const RunMeasures& measures);
+void fill_cars(View& view, const TrafficBatch& traffic, const RunMeasures& measures, const UplinkWatch& uplink);
 /// Running figures of all cars, the equipped ones and the others; queues.
 void fill_figures(View& view, const RunMeasures& measures);
 /// What the radio did in the last second.

@@ -90,6 +90,7 @@ void RsuNode::step(Step k, const SignalBatch* new_signal, const AirBatch& air, R
   out.answers_malformed = 0;
   out.requests_refused = 0;
   out.reception.clear();
+  out.uplink.clear();
   if (new_signal != nullptr) {
     const auto taken = signals_.take({.first = new_signal->first,
                                       .heads = new_signal->heads,
@@ -129,7 +130,7 @@ void RsuNode::hear(Step k, const AirBatch& air, RoadsideBatch& out) {
     tally_.clear();
     load_.add_air(air.frames, k);
     if (load_.counted()) tally_.busy_ratio = load_.busy_ratio_at_mast();
-    receive(air);
+    receive(air, out.uplink);
     for (const auto& item : inbox_.take(k)) {
       tally_.count_delivered(item.arrival.latency_ms, item.duplicate);
       if (!item.duplicate) understand(k, item.content.kind, item.content.payload, out);
@@ -139,7 +140,7 @@ void RsuNode::hear(Step k, const AirBatch& air, RoadsideBatch& out) {
   cars_.arrange(k);
 }
 
-void RsuNode::receive(const AirBatch& air) {
+void RsuNode::receive(const AirBatch& air, FrameFates& fates) {
   const Frames& frames = air.frames;
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     const PlanePoint antenna{frames.antenna_x_m[frame], frames.antenna_y_m[frame]};
@@ -159,6 +160,7 @@ void RsuNode::receive(const AirBatch& air) {
     }
     const Reception reception = modem_.receive(hop);
     tally_.count_sent(reception);
+    fates.add(reception);
     if (reception.lost) continue;
     const auto payload = frames.payload_of(frame);
     inbox_.add(reception, hop, {frames.kind[frame], {payload.begin(), payload.end()}});
@@ -224,6 +226,8 @@ void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
   request_.step = k;
   request_.lanes.clear();
   request_.lifetime.clear();
+  out.request_lanes.clear();
+  out.request_lifetime.clear();
   if (answer_.request() && !config_.actuation) {
     out.requests_refused = 1;
   } else if (answer_.request()) {
@@ -236,6 +240,8 @@ void RsuNode::ask_for_green(Step k, RoadsideBatch& out) {
   if (lifetime > 0 || due.lifetime <= 0) {
     request_.lanes.push_back(due.green.bits());
     request_.lifetime.push_back(lifetime);
+    out.request_lanes = request_.lanes;
+    out.request_lifetime = request_.lifetime;
   }
   held_requests_.pop_front();
 }

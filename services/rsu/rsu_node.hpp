@@ -60,7 +60,7 @@ class RsuNode {
   };
 
   void hear(Step k, const AirBatch& air, RoadsideBatch& out);
-  void receive(const AirBatch& air);
+  void receive(const AirBatch& air, FrameFates& fates);
   void understand(Step k, std::uint8_t kind, std::span<const std::uint8_t> payload, RoadsideBatch& out);
   void look(Step k, const SensedColumns& sensed);
   void think(Step k);

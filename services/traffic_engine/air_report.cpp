@@ -19,7 +19,9 @@ LengthClass class_of(double length_m) {
 
 }  // namespace
 
-void say_safety_messages(const traffic::Engine& engine, traffic::UnitErrors& errors, Step k, Frames& frames) {
+void say_safety_messages(const traffic::Engine& engine, traffic::UnitErrors& errors, Step k, Frames& frames,
+                         std::vector<std::uint32_t>& speakers) {
+  speakers.clear();
   const traffic::EngineParameters& parameters = engine.parameters();
   const bool wrong = errors.any();
   BasicSafety message;
@@ -49,6 +51,7 @@ void say_safety_messages(const traffic::Engine& engine, traffic::UnitErrors& err
       append(frames,
              {.sender = car.temporary_id, .sequence = sequence, .antenna_x_m = centre.x_m, .antenna_y_m = centre.y_m},
              message);
+      speakers.push_back(car.vehicle);
     }
   }
   if (wrong) errors.forget_unseen(k);

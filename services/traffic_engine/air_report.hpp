@@ -10,7 +10,9 @@
 namespace lukou {
 
 /// Appends the BSM of every equipped car at t_k, as its unit believes. The antenna on the envelope is the true one.
-void say_safety_messages(const traffic::Engine& engine, traffic::UnitErrors& errors, Step k, Frames& frames);
+/// `speakers` is overwritten with the vehicles, in the order of their frames.
+void say_safety_messages(const traffic::Engine& engine, traffic::UnitErrors& errors, Step k, Frames& frames,
+                         std::vector<std::uint32_t>& speakers);
 
 /// Overwrites `sensed` with what the sensors deliver.
 void report_sensed(const std::vector<traffic::Detection>& detections, SensedColumns& sensed);

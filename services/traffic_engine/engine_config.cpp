@@ -146,6 +146,7 @@ Expected<EngineConfig> engine_config(const scenario::Resolved& scenario) {
   config.unit_errors = unit_error_parameters(from.vehicles());
   config.sensors = sensor_parameters(from);
   config.rsu_measured = scenario::protocol(scenario).rsu_measured;
+  config.record_frames = scenario::logs_everything(scenario);
   config.traffic.seed = from.run().seed();
   config.traffic.overflow_wait_s = from.run().overflow_wait_s();
   config.traffic.vehicles = vehicle_parameters(from.vehicles());

@@ -21,6 +21,7 @@ struct EngineConfig {
   traffic::UnitErrorParameters unit_errors;
   std::vector<traffic::SensorParameters> sensors;  ///< of all RSUs, in the order of the scenario
   std::vector<bool> rsu_measured;                  ///< by RSU: its computing time is measured
+  bool record_frames = false;                      ///< the record holds all that is said and sensed
 };
 
 /// Reads it, traces of arrivals included. Refuses values that are each in range but do not go together.

@@ -126,6 +126,10 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   report_fates(traffic);
   report_reception(roadside, traffic);
   for (const RoadsideBatch* batch : roadside) {
+    if (batch == nullptr) continue;
+    if (auto done = report_uplink(*batch, traffic); !done) return done;
+  }
+  for (const RoadsideBatch* batch : roadside) {
     traffic.heard_epoch.push_back(batch != nullptr ? batch->epoch : 0);
     traffic.computing_ms.push_back(batch != nullptr ? computing_ms(*batch) : 0);
     if (batch == nullptr) continue;
@@ -134,8 +138,9 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
   }
   air.step = k;
   air.frames.clear();
-  say_safety_messages(engine_, unit_errors_, k, air.frames);
+  say_safety_messages(engine_, unit_errors_, k, air.frames, speakers_);
   report_sensed(sensors_.look(k, engine_), air.sensed);
+  if (config_.record_frames) report_frames(roadside, air, traffic);
   load_.add_air(air.frames, k);
   between_cars_.hear(air.frames, k, load_);
   next_ = k + 1;
@@ -321,6 +326,36 @@ void EngineNode::report_reception(std::span<const RoadsideBatch* const> roadside
   }
   for (const RoadsideBatch* batch : roadside)
     if (batch != nullptr) traffic.reception.add(batch->reception);
+}
+
+Expected<Done> EngineNode::report_uplink(const RoadsideBatch& batch, TrafficBatch& traffic) const {
+  const FrameFates& told = batch.uplink;
+  if (told.size() == 0) return Done{};
+  if (!told.well_formed() || told.size() != speakers_.size()) {
+    return Error{"topic lukou/roadside", "what rsu" + std::to_string(batch.rsu) + " heard in step " +
+                                             std::to_string(batch.step) + " speaks of " + std::to_string(told.size()) +
+                                             " frames, must speak of the " + std::to_string(speakers_.size()) +
+                                             " that were sent"};
+  }
+  traffic.uplink_vehicle.insert(traffic.uplink_vehicle.end(), speakers_.begin(), speakers_.end());
+  traffic.uplink_rsu.insert(traffic.uplink_rsu.end(), speakers_.size(), batch.rsu);
+  traffic.uplink.add(told);
+  return Done{};
+}
+
+void EngineNode::report_frames(std::span<const RoadsideBatch* const> roadside, const AirBatch& air,
+                               TrafficBatch& traffic) {
+  traffic.air = air.frames;
+  traffic.sensed = air.sensed;
+  for (const RoadsideBatch* batch : roadside) {
+    if (batch == nullptr) continue;
+    traffic.said.append(batch->frames);
+    traffic.said_rsu.resize(traffic.said.size(), batch->rsu);
+    if (batch->request_lanes.empty()) continue;
+    traffic.asked_rsu.push_back(batch->rsu);
+    traffic.asked_lanes.push_back(batch->request_lanes.front());
+    traffic.asked_lifetime.push_back(batch->request_lifetime.front());
+  }
 }
 
 }  // namespace lukou

@@ -75,6 +75,10 @@ class EngineNode {
   void deliver(Step now);
   void report_fates(TrafficBatch& traffic) const;
   void report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const;
+  /// What an RSU heard of the frames that cars sent in the step before.
+  Expected<Done> report_uplink(const RoadsideBatch& batch, TrafficBatch& traffic) const;
+  /// What a full run log holds of this step beside the cars.
+  static void report_frames(std::span<const RoadsideBatch* const> roadside, const AirBatch& air, TrafficBatch& traffic);
 
   EngineConfig config_;  ///< as it is in force
   traffic::Engine engine_;
@@ -84,6 +88,7 @@ class EngineNode {
   BetweenCars between_cars_;
   traffic::UnitErrors unit_errors_;
   traffic::RoadsideSensors sensors_;
+  std::vector<std::uint32_t> speakers_;  ///< vehicles whose units sent a frame in the last step, in the frames' order
   Step next_ = 0;                        ///< the step after the last one
   Inbox<traffic::Advice> inbox_;         ///< stays empty under the ideal radio if the RSUs' time is free
   Inbox<Hearing> spats_;                 ///< likewise

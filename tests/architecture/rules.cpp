@@ -18,7 +18,8 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"lockstep", {"core"}},
     {"bus", {"core", "lockstep", "messages", "radio"}},
     {"measures", {"core", "intersection", "radio", "bus"}},  // of the bus the plain batches alone, see kOnlyHeader
-    {"results", {"core", "intersection", "measures"}},       // of the measures the plain rows alone, see kOnlyHeader
+    {"run_log", {"core", "radio", "bus"}},                   // of the bus the plain batches alone, see kOnlyHeader
+    {"results", {"core", "intersection", "measures", "run_log"}},  // of the measures the plain rows alone
     {"process", {"core", "lockstep", "bus"}},
 };
 
@@ -30,6 +31,7 @@ struct OnlyHeader {
 };
 const std::vector<OnlyHeader> kOnlyHeader = {
     {"common/measures", "common/bus", "common/bus/batches.hpp"},
+    {"common/run_log", "common/bus", "common/bus/batches.hpp"},
     {"common/results", "common/measures", "common/measures/rows.hpp"},
     {"services/rsu/sdk", "common/messages", "common/messages/binding.hpp"},
 };
@@ -62,7 +64,7 @@ const std::vector<Exception> kExceptions = {
     {"common/bus/participant.cpp", "environment", "CYCLONEDDS_URI, as every Cyclone program"},
     {"common/scenario/file.cpp", "environment", "LUKOU_SCENARIOS, where shipped scenarios are looked for"},
     {"services/rsu/process/run_rsu.cpp", "environment", "LUKOU_RSU, which RSU a hand-started process is"},
-    {"services/lukou/launch/run_processes.cpp", "environment", "PYTHONPATH, which the RSU's keeps"},
+    {"services/lukou/launch/rsu_child.cpp", "environment", "PYTHONPATH, which the RSU's keeps"},
     {"services/lukou/verb_doctor.cpp", "environment", "says what CYCLONEDDS_URI is set to"},
     {"services/lukou/report/progress.cpp", "environment", "NO_COLOR"},
     {"services/lukou/verb_verify.cpp", "thread", "runs beside each other, to show that they do not disturb"},

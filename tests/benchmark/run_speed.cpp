@@ -1,6 +1,7 @@
 // Speed and memory of the paper's scenario (1800 veh/h on every approach, equipped ratio 0.5, `arrive_on_green`, four
-// tables): as processes on the bus, which share one core, and in one process; and of the traffic engine alone.
-// Measured in turns, so that a disturbance of the machine meets all of them. Prints measured beside floor.
+// tables): as processes on the bus, which share one core, open and secured, and in one process; and of the traffic
+// engine alone. Measured in turns, so that a disturbance of the machine meets all of them. Prints measured beside
+// floor.
 //   run_speed [--enforce] [--repeats N] [--duration S]      exit code 1 below a floor only with --enforce
 
 #include <array>
@@ -36,12 +37,13 @@ struct Timed {
   double start_up_s = 0.0;
 };
 
-/// A run from its start to its end; notes the peak memory of its processes.
-Timed timed_run(const std::string& mode, double duration_s, Peaks& peaks) {
+/// A run from its start to its end; notes the peak memory of its processes. `keys`: secured by them; "" = open.
+Timed timed_run(const std::string& mode, double duration_s, Peaks& peaks, const std::string& keys = "") {
   const TemporaryFolder folder;
   const std::string run = fresh_run_id();
   auto arguments = paper_arguments(mode, 1800.0, 0.5, duration_s, 1);
   arguments.insert(arguments.end(), {"--out", folder / "result", "--run-id", run});
+  if (!keys.empty()) arguments.insert(arguments.end(), {"--secure", keys});
   Program program(arguments);
   const bool alone = mode == "in-process";
   std::map<std::string, pid_t> processes;
@@ -121,10 +123,19 @@ int main(int argc, char** argv) {
   std::vector<double> alone;
   std::vector<double> updates;
   std::vector<double> start_up_s;
+  std::vector<double> secured;
+  std::vector<double> secured_start_up_s;
+  const TemporaryFolder folder;
+  const std::string keys = folder / "keys";
+  if (lukou::test::lukou({"keys", "init", keys}).code != 0) return 1;
   for (int i = 0; i < repeats; ++i) {
     const Timed on_bus = timed_run("processes", duration_s, peaks);
     processes.push_back(on_bus.steps_per_s);
     start_up_s.push_back(on_bus.start_up_s);
+    Peaks of_secured;
+    const Timed behind_keys = timed_run("processes", duration_s, of_secured, keys);
+    secured.push_back(behind_keys.steps_per_s);
+    secured_start_up_s.push_back(behind_keys.start_up_s);
     alone.push_back(timed_run("in-process", duration_s, peaks).steps_per_s);
     updates.push_back(updates_per_s());
   }
@@ -136,6 +147,10 @@ int main(int argc, char** argv) {
   for (const auto& [name, kb] : peaks) floors.at_most("peak memory of " + name + ", kB", kb, kCeilingMemory_kb);
   std::printf("in-process against processes: %.2f times as fast\n", spread(alone).median / spread(processes).median);
   std::printf("start-up of the processes: %.2f s\n", spread(start_up_s).median);
+  const Spread behind_keys = spread(secured);
+  std::printf("secured processes, steps/s: %.0f [%.0f - %.0f], %.2f of the speed of open ones; start-up %.2f s\n",
+              behind_keys.median, behind_keys.least, behind_keys.most, behind_keys.median / spread(processes).median,
+              spread(secured_start_up_s).median);
   std::printf(floors.all_met() ? "all floors met\n" : "some floor is NOT met\n");
   return floors.all_met() || !flag_argument(argc, argv, "enforce") ? 0 : 1;
 }

@@ -107,6 +107,18 @@ export async function runToEnd(args, scenario = 'paper') {
   if (code !== 0) throw new Error(`exit code ${code}\n${run.output}`);
 }
 
+/** A recorded run with a console on it. */
+export async function startReplay(result) {
+  const started = new Process(lukou, ['replay', result, `--console=${firstPort()}`]);
+  try {
+    const url = await until(() => started.output.match(URL_LINE)?.[0], `address of the console in: ${started.output}`);
+    return { url, end: () => started.end() };
+  } catch (error) {
+    await started.end('SIGTERM');
+    throw error;
+  }
+}
+
 /** A second console on a run. */
 export async function attach(id, port = 0) {
   const console = new Process(join(programs, 'lukou-console'), ['--attach', id, '--port', String(port)]);

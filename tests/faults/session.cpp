@@ -98,10 +98,10 @@ class Session {
   /// Looks at the run for a moment, as any observer may.
   void look(double timeout_s) {
     if (!client_) {
-      const auto run = process::find_run(run_);
+      const auto run = process::find_run(run_, {.domain = -1});
       if (!run) return pause_s(timeout_s);
       domain_ = run.value().domain;
-      auto client = process::RunClient::attach({run.value().domain, run_}, true);
+      auto client = process::RunClient::attach(run.value(), true);
       if (client) client_ = std::move(client).value();
       return;
     }

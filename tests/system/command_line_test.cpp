@@ -137,5 +137,17 @@ TEST(CommandLine, WaitsForAnRsuThatIsStartedByHand) {
   EXPECT_EQ(rsu.wait(5.0), 0) << rsu.err();
 }
 
+TEST(CommandLine, RefusesPrefixesThatNobodyUses) {
+  const auto refused = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", "paper"});
+    const Finished end = lukou(more);
+    EXPECT_EQ(end.code, 2) << end.err;
+    return end.err;
+  };
+  EXPECT_NE(refused({"--prefix", "rsu0=nice", "--rsu", "wait"}).find("nobody starts this RSU"), std::string::npos);
+  EXPECT_NE(refused({"--prefix", "rsu1=nice"}).find("--prefix rsu1=nice: must be ROLE=COMMAND"), std::string::npos);
+  EXPECT_NE(refused({"--mode", "in-process", "--prefix", "rsu0=nice"}).find("--mode in-process"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace lukou::test

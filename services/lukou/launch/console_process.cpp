@@ -18,7 +18,7 @@ constexpr std::string_view kRole = "console";
 
 }  // namespace
 
-Expected<ConsoleProcess> ConsoleProcess::start(std::uint16_t port) {
+Expected<ConsoleProcess> ConsoleProcess::start(std::uint16_t port, std::vector<std::string> environment) {
   auto ends = process::LineLink::pair();
   if (!ends) return ends.error();
   const int theirs = ends.value().second;
@@ -26,7 +26,8 @@ Expected<ConsoleProcess> ConsoleProcess::start(std::uint16_t port) {
   auto child = std::make_unique<Children>();
   auto started = child->start({.role = std::string(kRole),
                                .command = {program.string(), "--launcher", std::to_string(theirs), "--port",
-                                           std::to_string(port), "--ports", std::to_string(kPortsToTry)}});
+                                           std::to_string(port), "--ports", std::to_string(kPortsToTry)},
+                               .environment = std::move(environment)});
   ::close(theirs);
   if (!started) return started.error();
   return ConsoleProcess(std::move(ends.value().first), std::move(child));

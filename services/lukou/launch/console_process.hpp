@@ -15,8 +15,9 @@ namespace lukou::launch {
 /// as somebody looks at it.
 class ConsoleProcess {
  public:
-  /// Listens at the first free port from `port` on. Errors: the program cannot be started.
-  static Expected<ConsoleProcess> start(std::uint16_t port);
+  /// Listens at the first free port from `port` on. `environment`: how it reaches runs. Errors: the program cannot be
+  /// started.
+  static Expected<ConsoleProcess> start(std::uint16_t port, std::vector<std::string> environment);
 
   /// Shows this run from now on.
   void show(const bus::Address& run);

@@ -9,8 +9,6 @@
 #include <cstring>
 #include <utility>
 
-#include "common/process/run_list.hpp"
-
 namespace lukou::launch {
 namespace {
 
@@ -33,11 +31,12 @@ int bind_abstract(const std::string& name) {
 
 }  // namespace
 
-Expected<DomainClaim> DomainClaim::lowest_free(const std::string& run, Incarnation clock) {
+Expected<DomainClaim> DomainClaim::lowest_free(process::ListedRun run) {
   for (int domain = 0; domain <= kDomainMax; ++domain) {
     const int domain_socket = bind_abstract(kDomainPrefix + std::to_string(domain));
     if (domain_socket < 0) continue;
-    const int run_socket = bind_abstract(process::run_socket_name(run, domain, clock));
+    run.domain = domain;
+    const int run_socket = bind_abstract(process::socket_name(run));
     return DomainClaim(domain, domain_socket, run_socket);
   }
   return Error{"DDS domains", "0 to 100 are all claimed by other runs on this host; `lukou ctl list` names them"};

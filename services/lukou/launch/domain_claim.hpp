@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/core/expected.hpp"
-#include "common/lockstep/messages.hpp"
+#include "common/process/run_list.hpp"
 
 namespace lukou::launch {
 
@@ -12,8 +12,8 @@ namespace lukou::launch {
 /// socket, so that two launchers never get the same and the kernel frees it when the launcher dies, however it dies.
 class DomainClaim {
  public:
-  /// The lowest free id in [0, 100]. The run and its clock are published beside it: process::list_runs().
-  static Expected<DomainClaim> lowest_free(const std::string& run, Incarnation clock);
+  /// The lowest free id in [0, 100]. `run` is published with it: process::list_runs(); its domain counts not.
+  static Expected<DomainClaim> lowest_free(process::ListedRun run);
   DomainClaim(DomainClaim&& other) noexcept;
   DomainClaim& operator=(DomainClaim&& other) noexcept;
   ~DomainClaim();

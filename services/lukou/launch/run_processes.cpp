@@ -11,11 +11,11 @@
 #include "common/process/log.hpp"
 #include "common/process/run_client.hpp"
 #include "common/scenario/scenario_steps.hpp"
-#include "services/lukou/home.hpp"
 #include "services/lukou/launch/child.hpp"
 #include "services/lukou/launch/console_process.hpp"
 #include "services/lukou/launch/domain_claim.hpp"
 #include "services/lukou/launch/result_of_run.hpp"
+#include "services/lukou/launch/rsu_child.hpp"
 #include "services/lukou/launch/run_request.hpp"
 
 namespace lukou::launch {
@@ -42,13 +42,6 @@ std::optional<int> core_for(const RunRequest& request, int domain) {
     if (CPU_ISSET(static_cast<unsigned>(core), &ours)) cores.push_back(core);
   if (cores.empty()) return std::nullopt;
   return cores[static_cast<std::size_t>(domain) % cores.size()];
-}
-
-/// Where Python finds the module `lukou`, before what the user has set.
-std::string python_path() {
-  const char* set = std::getenv("PYTHONPATH");
-  const std::string ours = find_home().python.string();
-  return set == nullptr || *set == '\0' ? ours : ours + ":" + set;
 }
 
 /// One run of processes, from the first fork to the last exit.
@@ -88,17 +81,17 @@ class Session {
 
  private:
   Expected<Done> start_all() {
-    const std::vector<std::string> environment = {"LUKOU_RUN=" + address_.run,
-                                                  "LUKOU_DOMAIN=" + std::to_string(address_.domain)};
     const auto member = [&](const std::string& role, const std::string& name, std::vector<std::string> more) {
+      // Who writes all down has more to do than anybody in the lockstep, and nobody waits for it.
+      const bool apart = role == kRecorderRole && scenario::logs_everything(request_.scenario) && !request_.core;
       ChildSpec spec{.role = role,
                      .command = {program(name).string()},
-                     .environment = environment,
-                     .core = core_for(request_, address_.domain),
+                     .environment = environment(role),
+                     .core = apart ? std::nullopt : core_for(request_, address_.domain),
                      .log = folder_ / "operator.log"};
       if (!request_.watchdog) more.emplace_back("--no-watchdog");
       spec.command.insert(spec.command.end(), more.begin(), more.end());
-      return children_.start(spec);
+      return start(std::move(spec));
     };
     std::vector<std::string> clock = {"--scenario",    (folder_ / "scenario.textproto").string(),
                                       "--pace",        request_.pace,
@@ -119,21 +112,36 @@ class Session {
       const std::string index = std::to_string(rsu);
       const std::string& started = rsu_program(request_, rsu);
       if (started == "wait") {
-        process::log_warning("start " + rsu_role(rsu) + " by hand: LUKOU_RUN=" + address_.run +
-                             " LUKOU_DOMAIN=" + std::to_string(address_.domain) + " LUKOU_RSU=" + index + " " +
-                             program("lukou-rsu").string() + (request_.watchdog ? "" : " --no-watchdog"));
+        process::log_warning("start " + rsu_role(rsu) + " by hand: " + by_hand(rsu));
       } else if (started.empty()) {
         if (auto done = member(rsu_role(rsu), "lukou-rsu", {"--index", index}); !done) return done;
       } else {
-        auto variables = environment;
-        variables.push_back("LUKOU_RSU=" + index);
-        variables.push_back("PYTHONPATH=" + python_path());
-        ChildSpec spec{
-            .role = rsu_role(rsu), .command = {"/bin/sh", "-c", "exec " + started}, .environment = variables};
-        if (auto done = children_.start(spec); !done) return done;
+        if (auto done = start(rsu_child(rsu, started, environment(rsu_role(rsu)))); !done) return done;
       }
     }
     return Done{};
+  }
+
+  [[nodiscard]] std::vector<std::string> environment(const std::string& role) const {
+    std::vector<std::string> variables = request_.reach.environment(role);
+    variables.push_back("LUKOU_RUN=" + address_.run);
+    variables.push_back("LUKOU_DOMAIN=" + std::to_string(address_.domain));
+    return variables;
+  }
+
+  Expected<Done> start(ChildSpec spec) {
+    const auto prefix = request_.reach.prefix_of.find(spec.role);
+    if (prefix != request_.reach.prefix_of.end()) spec = behind(prefix->second, program("lukou"), std::move(spec));
+    return children_.start(spec);
+  }
+
+  /// The command that a user types for an RSU that nobody starts.
+  [[nodiscard]] std::string by_hand(std::uint32_t rsu) const {
+    std::string command;
+    for (const std::string& variable : environment(rsu_role(rsu)))
+      if (!variable.ends_with('=')) command += variable + " ";
+    return command + "LUKOU_RSU=" + std::to_string(rsu) + " " + program("lukou-rsu").string() +
+           (request_.watchdog ? "" : " --no-watchdog");
   }
 
   [[nodiscard]] bool waits_for_somebody() const {
@@ -263,7 +271,8 @@ class Session {
       if (lost.role == culprit_ && (lost.signalled || guessed)) text_ = lost.text();
     end.culprit = culprit_;
     end.text = text_;
-    end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : process::wall_s());
+    // A short run may be over before the clock is heard here.
+    end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : begun_s_);
     end.start_up_s = running_s_ != 0.0 ? running_s_ - begun_s_ : 0.0;
     end.foreign_samples = client_->foreign_samples() + (client_->state() ? client_->state()->foreign_samples : 0);
     RunReport report = finish_result(request_, folder_, end);
@@ -335,10 +344,15 @@ RunReport run_processes(const RunRequest& request, const Listener& listener) {
   auto folder = create_result(request);
   if (!folder) return refuse(process::kExitIo, folder.error());
   const std::string run = request.run_id.empty() ? run_id(request) : request.run_id;
+  const Reach& reach = request.reach;
   const Incarnation clock = process::new_incarnation();
-  auto claim = DomainClaim::lowest_free(run, clock);
+  auto claim = DomainClaim::lowest_free(
+      {.run = run, .clock = clock, .secured = !reach.keys.empty(), .hosts = !reach.peers.empty()});
   if (!claim) return refuse(process::kExitAborted, claim.error());
-  const bus::Address address{claim.value().domain(), run};
+  const bus::Address address{.domain = claim.value().domain(),
+                             .run = run,
+                             .peers = reach.peers,
+                             .identity = reach.identity(std::string(kObserverRole))};
   Session session(request, listener, folder.value(), std::move(claim).value(), address, clock);
   return session.run();
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/scenario/scenario.hpp"
+#include "services/lukou/launch/reach.hpp"
 #include "services/rsu/process/run_rsu.hpp"
 
 namespace lukou::launch {
@@ -32,6 +33,7 @@ struct RunRequest {
   bool observe = true;                ///< attach to the run's picture, for the progress bar
   ConsoleProcess* console = nullptr;  ///< shows the run; null: none
   std::optional<int> core;            ///< processor for the run's processes; empty: follows the domain id
+  Reach reach;                        ///< hosts and keys
 };
 
 /// What is started as RSU number `rsu`, as in RunRequest::rsu.

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "tests/unit/common/bus/batch_members.hpp"
+#include "tests/unit/common/bus/members.hpp"
 
 namespace lukou::bus {
 namespace {
@@ -135,6 +135,11 @@ TEST(Flaws, OfRoadsideAreValuesOutOfRange) {
   EXPECT_NE(with<RoadsideBatch>([](auto& b) { b.reception.latency_ms[0] = kNaN; }), "");
   EXPECT_NE(with<RoadsideBatch>([](auto& b) { b.reception.busy_ratio[0] = 1.01; }), "");
   EXPECT_EQ(with<RoadsideBatch>([](auto& b) { b.reception.busy_ratio[0] = kNaN; }), "") << "not counted";
+  EXPECT_NE(with<RoadsideBatch>([](auto& b) { b.uplink.fate[0] = 8; }), "");
+  EXPECT_NE(with<RoadsideBatch>([](auto& b) { b.uplink.due[0] = -2; }), "");
+  EXPECT_EQ(with<RoadsideBatch>([](auto& b) { b.uplink.latency_ms[0] = kNaN; }), "") << "lost";
+  EXPECT_NE(with<RoadsideBatch>([](auto& b) { b.uplink.latency_ms[0] = kInfinite; }), "");
+  EXPECT_NE(with<RoadsideBatch>([](auto& b) { b.request_lanes = {1, 1}, b.request_lifetime = {1, 1}; }), "");
   EXPECT_EQ(with<RoadsideBatch>([](auto& b) { b.frames_heard = 4'000'000'000U; }), "") << "a count is a count";
 }
 
@@ -170,6 +175,9 @@ TEST(Flaws, OfTrafficAreValuesOutOfRange) {
   EXPECT_NE(with<TrafficBatch>([](auto& b) { b.fate_kind[0] = 4; }), "");
   EXPECT_NE(with<TrafficBatch>([](auto& b) { b.fate_issued[0] = -2; }), "");
   EXPECT_NE(with<TrafficBatch>([](auto& b) { b.overflow = 2; }), "");
+  EXPECT_NE(with<TrafficBatch>([](auto& b) { b.uplink.fate[0] = 8; }), "");
+  EXPECT_EQ(with<TrafficBatch>([](auto& b) { b.air.kind[0] = 9; }), "air: frames.kind[0] is 9, must be 1 to 5");
+  EXPECT_EQ(with<TrafficBatch>([](auto& b) { b.said.kind[0] = 9; }), "said: frames.kind[0] is 9, must be 1 to 5");
 }
 
 TEST(Flaws, OfMessagesAreKindsThatNobodyKnows) {

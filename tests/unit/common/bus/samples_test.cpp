@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include "tests/unit/common/bus/batch_members.hpp"
+#include "tests/unit/common/bus/members.hpp"
 
 namespace lukou::bus {
 namespace {

@@ -33,6 +33,8 @@ TEST(View, IsBrokenIfAnyColumnHasAnotherLength) {
   EXPECT_TRUE(broken([](View& v) { v.waiting.push_back(0); }));
   EXPECT_TRUE(broken([](View& v) { v.vehicle.push_back(0); }));
   EXPECT_TRUE(broken([](View& v) { v.advice_step.push_back(0); }));
+  EXPECT_TRUE(broken([](View& v) { v.uplink.push_back(0); }));
+  EXPECT_TRUE(broken([](View& v) { v.heard_step.push_back(0); }));
   EXPECT_TRUE(broken([](View& v) { v.heads.resize(12); })) << "without their changes";
   EXPECT_TRUE(broken([](View& v) { v.heads.resize(5), v.change_step.resize(5), v.next_aspect.resize(5); }));
   EXPECT_TRUE(broken([](View& v) { v.radio_lost.resize(7); })) << "of no row";

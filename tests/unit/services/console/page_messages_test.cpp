@@ -26,6 +26,7 @@ View two_cars() {
   view.position_m = {400.5, 380.25}, view.speed_mps = {0.0, 1.5}, view.acceleration_mps2 = {-1.0, 0.5};
   view.commanded_mps2 = {0.25, kNone}, view.guidance = {2, 0}, view.bound_by = {3, 1}, view.missed = {255, 11};
   view.standing_steps = {15, 0}, view.advice_step = {97, -1};
+  view.uplink = {0, 255}, view.heard_step = {98, -1};
   view.heads.assign(12, 3), view.change_step.assign(12, 250), view.next_aspect.assign(12, 1);
   view.change_step[5] = -1;
   return view;
@@ -43,6 +44,9 @@ TEST(PageMessages, ShowEachCarAndHead) {
   EXPECT_EQ(picture.stood_s(0), 1.5F);
   EXPECT_EQ(picture.advice_age(0), 3);
   EXPECT_EQ(picture.advice_age(1), -1) << "never one";
+  EXPECT_EQ(picture.uplink(), std::string("\0\xff", 2));
+  EXPECT_EQ(picture.heard_age(0), 2);
+  EXPECT_EQ(picture.heard_age(1), -1) << "never";
   EXPECT_EQ(picture.change_in(0), 150);
   EXPECT_EQ(picture.change_in(5), -1) << "not known";
 }

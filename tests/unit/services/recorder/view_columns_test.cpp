@@ -78,12 +78,16 @@ TEST(ViewColumns, CarryTheCarsAndWhatIsMeasuredOfThem) {
   batch.missed = {kNothingMissed};
   measures.add(batch);
   View view;
-  fill_cars(view, batch, measures);
+  UplinkWatch uplink;
+  uplink.add(batch);
+  fill_cars(view, batch, measures, uplink);
   fill_figures(view, measures);
   fill_radio(view, {});
   EXPECT_TRUE(view.well_formed());
   EXPECT_EQ(view.standing_steps, std::vector<std::uint32_t>{1});
   EXPECT_EQ(view.advice_step, std::vector<Step>{-1});
+  EXPECT_EQ(view.uplink, std::vector<std::uint8_t>{255}) << "no unit";
+  EXPECT_EQ(view.heard_step, std::vector<Step>{-1});
   EXPECT_EQ(view.queue[1], 1U);
   EXPECT_EQ(view.figures.in_system, (std::vector<std::uint32_t>{1, 0, 1})) << "all, equipped, others";
   EXPECT_TRUE(std::isnan(view.figures.mean_stop_time_s[1])) << "of no car";

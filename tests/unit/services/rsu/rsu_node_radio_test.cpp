@@ -110,6 +110,21 @@ TEST(RsuNodeRadio, CountsWhatIsLostAndWhy) {
   EXPECT_EQ(rsu.ages(), (std::vector<Step>{0}));
 }
 
+TEST(RsuNodeRadio, TellsOfEachFrameWhetherItIsHeardAndWhen) {
+  Listening late(late_by(300.0));
+  late.step();
+  EXPECT_EQ(late.out().uplink.fate, std::vector<std::uint8_t>{kFrameHeard});
+  EXPECT_EQ(late.out().uplink.due, std::vector<Step>{3}) << "generated inside (t-1, t0]";
+  EXPECT_EQ(late.out().uplink.latency_ms, std::vector<double>{300.0});
+  LinkModel near;
+  near.range_m = 50.0;
+  Listening far(near);
+  far.step();
+  EXPECT_EQ(far.out().uplink.fate, std::vector<std::uint8_t>{1 + static_cast<std::uint8_t>(LossCause::kRange)});
+  far.step(false);
+  EXPECT_EQ(far.out().uplink.size(), 0U) << "nobody spoke";
+}
+
 TEST(RsuNodeRadio, DropsDuplicates) {
   LinkModel twice;
   twice.duplicate_rate = 1.0;

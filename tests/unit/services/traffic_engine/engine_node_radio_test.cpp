@@ -285,6 +285,37 @@ TEST(EngineNodeRadio, ForgetsAMissedWordWhenANewerOneIsHeard) {
   EXPECT_EQ(state_of(drive), GuidanceState::kReleased);
 }
 
+TEST(EngineNodeRadio, PassesOnWhichCarsAnRsuHeard) {
+  Drive drive(with_downlink({}));
+  drive.run_to(100);
+  RoadsideBatch batch;
+  batch.step = 100;
+  batch.rsu = 3;
+  batch.uplink.add(Reception{.lost = LossCause::kBurst, .first = {}, .second = {}});
+  drive.step(&batch);
+  EXPECT_EQ(drive.traffic().uplink_vehicle, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(drive.traffic().uplink_rsu, std::vector<std::uint32_t>{3});
+  EXPECT_EQ(drive.traffic().uplink.fate, batch.uplink.fate);
+  drive.step();
+  EXPECT_EQ(drive.traffic().uplink_vehicle.size(), 0U) << "nobody told";
+}
+
+TEST(EngineNodeRadio, RefusesAnRsuThatTellsOfFramesThatNobodySent) {
+  EngineNode node(with_downlink({}));
+  TrafficBatch traffic;
+  AirBatch air;
+  SignalBatch signal;
+  signal.heads.assign(kLanes, static_cast<std::uint8_t>(Aspect::kGreen));
+  ASSERT_TRUE(node.step(0, &signal, {}, traffic, air));
+  RoadsideBatch batch;
+  batch.uplink.add(Reception{.lost = LossCause::kBurst, .first = {}, .second = {}});
+  const RoadsideBatch* heard = &batch;
+  const auto refused = node.step(1, nullptr, std::span(&heard, 1), traffic, air);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().text(),
+            "topic lukou/roadside: what rsu0 heard in step 0 speaks of 1 frames, must speak of the 0 that were sent");
+}
+
 /// What an arriving car brings with it, by its number.
 using Arrivals = std::map<std::uint32_t, std::tuple<double, std::uint8_t>>;
 

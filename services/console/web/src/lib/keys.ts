@@ -22,10 +22,14 @@ export function keyHandler(run: Console, view: ViewState, sights: Sights): (even
   const ask = (text: string) => {
     if (run.mayAct && !run.over) void run.ask(text);
   };
+  // Of a run everybody may look back; a recording goes to another step for all.
+  const look = (by: number) => {
+    if (run.recordedTo === null || run.mayAct) run.lookBy(by);
+  };
   const actions: Record<string, () => void> = {
     ' ': () => ask(run.status?.phase === 'running' ? 'pause' : 'resume'),
-    '.': () => (run.scrubbed === null ? ask('step 1') : run.lookBy(1)),
-    ',': () => run.lookBy(-1),
+    '.': () => (run.scrubbed === null && run.recordedTo === null ? ask('step 1') : look(1)),
+    ',': () => look(-1),
     l: () => (run.scrubbed = null),
     '[': () => ask(`pace ${neighbour(run.status?.pace ?? 0, -1)}`),
     ']': () => ask(`pace ${neighbour(run.status?.pace ?? 0, 1)}`),
@@ -40,6 +44,9 @@ export function keyHandler(run: Console, view: ViewState, sights: Sights): (even
     c: () => view.nextColouring(),
     r: () => (view.radio = !view.radio),
     t: () => settings.toggleTheme(),
+    u: () => {
+      if (run.maySet && run.undoable.length > 0) void run.undo();
+    },
     '?': () => (view.helpOpen = true),
     Escape: () => view.select(null),
   };

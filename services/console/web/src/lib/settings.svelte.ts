@@ -47,6 +47,13 @@ class Settings {
     this.keep();
   }
 
+  /** As a link says: for this page, not for the next. */
+  take(language: Language | undefined, theme: Theme | undefined): void {
+    words.language = language ?? words.language;
+    this.theme = theme ?? this.theme;
+    this.show();
+  }
+
   private keep(): void {
     this.show();
     const chosen: Kept = { language: words.language, theme: this.theme, timeForm: this.timeForm };

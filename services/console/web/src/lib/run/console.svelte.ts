@@ -5,8 +5,9 @@ import { Path } from '../view/path';
 import { Playback } from '../view/playback';
 import { Connection, type LinkState } from '../wire/connection';
 import { sceneOf, type Scene } from '../wire/scene';
-import { arrivedAt, asked, directed, fieldsOf, refusedWith, type Fields } from './fields';
+import { arrivedAt, asked, directed, fieldsAt, fieldsOf, refusedWith, type Fields } from './fields';
 import { ThinningRing } from './ring';
+import { pushed, restoring, standing, type Undo } from './undo';
 
 /** Pictures kept for looking back: two to four minutes step by step at real time, and everything before more coarsely. */
 const SCENES_KEPT = 2400;
@@ -39,12 +40,20 @@ export class Console {
   samplesSeen = $state(0); // counts changes of `samples`
   ghost = $state.raw<readonly Sample[]>([]); // what the charts compare with; empty: nothing
   scrubbed = $state<number | null>(null); // step that the user looks back at; null: live
+  seeking = $state<number | null>(null); // step that a recording is asked to go on from
+  private undos = $state.raw<readonly (readonly Undo[])[]>([]);
 
   paths: readonly Path[] = $derived((this.hello?.lanes ?? []).map((lane) => new Path(lane)));
   stepS = $derived(this.hello?.stepS ?? 0.1);
   inControl = $derived(this.hands !== null && this.hands.holder !== 0 && this.hands.holder === this.hello?.viewer);
   mayAct = $derived(this.link === 'open' && (this.inControl || (this.hands?.holder ?? 0) === 0));
   over = $derived(this.status?.phase === 'ended' || this.status?.phase === 'aborted');
+  /** The last step of a recording; null: a run that goes on. */
+  recordedTo = $derived(this.hello?.recordedTo === undefined ? null : Number(this.hello.recordedTo));
+  /** Whether values may be set. */
+  maySet = $derived(this.mayAct && this.recordedTo === null);
+  /** The newest changes of this page that can be taken back. */
+  undoable = $derived(this.undos[this.undos.length - 1] ?? []);
 
   readonly scenes = new ThinningRing<Scene>(SCENES_KEPT);
   readonly samples = new ThinningRing<Sample>(SAMPLES_KEPT);
@@ -54,6 +63,7 @@ export class Console {
   private followedMs = 0;
   private following: ReturnType<typeof setTimeout> | undefined;
   private undrawn: number[] = []; // steps of pictures that came since the last frame
+  private seekUnderWay = false;
 
   constructor(url: string) {
     this.connection = new Connection(url, {
@@ -71,12 +81,54 @@ export class Console {
     return reply;
   }
 
+  /** Sets a field; the step before can be undone. A refusal stands beside the field. */
   async set(path: string, value: string): Promise<Reply | null> {
+    const [reply] = await this.setTogether([{ path, value }]);
+    return reply;
+  }
+
+  /** Sets fields one after the other, as one step to undo. */
+  async setTogether(values: readonly { path: string; value: string }[]): Promise<(Reply | null)[]> {
+    const steps: Undo[] = [];
+    const replies: (Reply | null)[] = [];
+    for (const { path, value } of values) {
+      const before = restoring(this.fields, path);
+      const reply = await this.put(path, value);
+      if (reply?.ok && before !== null) steps.push({ path, set: value, before });
+      replies.push(reply);
+    }
+    this.undos = pushed(this.undos, steps);
+    return replies;
+  }
+
+  /** Sets the newest changes back, unless somebody has changed the field since. */
+  async undo(): Promise<void> {
+    const steps = standing(this.undoable, this.fields);
+    this.undos = this.undos.slice(0, -1);
+    for (const { before } of [...steps].reverse()) await this.put(before.path, before.value);
+  }
+
+  private async put(path: string, value: string): Promise<Reply | null> {
     this.fields = asked(this.fields, path, value);
     const reply = await this.ask(`set ${path}=${value}`);
     if (reply === null || !reply.ok) this.fields = refusedWith(this.fields, path, reply?.text ?? '');
-    this.refusal = ''; // it stands beside the field
+    this.refusal = '';
     return reply;
+  }
+
+  /** Lets a recording go on from another step. While one seek is under way the newest wish alone waits for its turn. */
+  async seek(step: number): Promise<void> {
+    if (this.recordedTo === null) return;
+    this.seeking = Math.min(Math.max(0, step), this.recordedTo);
+    if (this.seekUnderWay) return;
+    this.seekUnderWay = true;
+    let sent: number | null = null;
+    while (this.seeking !== null && this.seeking !== sent) {
+      sent = this.seeking;
+      const reply = await this.ask(`seek ${(sent * this.stepS).toFixed(1)}`);
+      if (!reply?.ok) this.seeking = null;
+    }
+    this.seekUnderWay = false;
   }
 
   takeControl(): void {
@@ -92,8 +144,12 @@ export class Console {
     this.ghost = this.ghost.length > 0 ? [] : [...this.samples.all()];
   }
 
-  /** Looks `by` pictures back or forth from the one that is shown; beyond the newest it is live again. */
+  /** Looks `by` pictures back or forth from the one that is shown; beyond the newest it is live again. A recording goes there. */
   lookBy(by: number): void {
+    if (this.recordedTo !== null) {
+      void this.seek((this.seeking ?? this.scenes.last?.step ?? 0) + by);
+      return;
+    }
     const from = this.scrubbed ?? this.scenes.last?.step ?? -1;
     const index = Math.max(0, this.scenes.indexAt(from) + by);
     this.scrubbed = index >= this.scenes.length - 1 ? null : (this.scenes.at(index)?.step ?? null);
@@ -141,7 +197,9 @@ export class Console {
       this.newest = null;
       this.scrubbed = null;
       this.statistics = null;
+      this.undos = [];
     }
+    this.seeking = null;
     this.greeted = true;
     this.samples.clear();
     this.notes = [];
@@ -154,6 +212,7 @@ export class Console {
   private show(scene: Scene): void {
     const nowMs = performance.now();
     if (this.scenes.last !== null && scene.step < this.scenes.last.step) this.scrubbed = null;
+    if (!this.seekUnderWay) this.seeking = null; // it is there
     this.scenes.push(scene);
     this.playback.arrived(scene.step, nowMs);
     this.undrawn.push(scene.step);
@@ -167,7 +226,18 @@ export class Console {
     this.following = undefined;
     this.followedMs = performance.now();
     this.newest = this.scenes.last;
-    if (this.newest !== null) this.fields = arrivedAt(this.fields, this.newest.step);
+    if (this.newest !== null) this.fieldsFollow(this.newest.step);
+  }
+
+  private fieldsFollow(step: number): void {
+    this.fields =
+      this.recordedTo === null
+        ? arrivedAt(this.fields, step)
+        : fieldsAt(
+            this.hello?.live ?? [],
+            this.notes.filter(({ kind }) => kind === 'directive'),
+            step,
+          );
   }
 
   private sample(statistics: Statistics): void {
@@ -178,7 +248,7 @@ export class Console {
   private note(event: Event): void {
     const note = { step: Number(event.step), kind: event.kind, text: event.text };
     this.notes = [...this.notes, note].slice(-EVENTS_KEPT);
-    if (note.kind === 'directive') {
+    if (note.kind === 'directive' && this.recordedTo === null) {
       this.fields = directed(this.fields, note.text, note.step, this.scenes.last?.step ?? -1);
     }
   }

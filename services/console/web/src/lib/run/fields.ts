@@ -8,6 +8,7 @@ export interface FieldState {
   readonly max: number | null;
   readonly source: string;
   readonly words: readonly string[];
+  readonly initial: string; // that the run began with
   readonly value: string; // in force
   readonly coming: { value: string; step: number } | null; // accepted, in force from `step` on
   readonly asked: string | null; // sent, not answered yet
@@ -32,6 +33,7 @@ export function fieldsOf(live: readonly LiveField[]): Map<string, FieldState> {
         max: f.max ?? null,
         source: f.source,
         words: f.words,
+        initial: f.initial,
         value: f.value,
         coming: null,
         asked: null,
@@ -59,8 +61,28 @@ export function directed(fields: Fields, text: string, step: number, shown: numb
   const directive = directiveIn(text);
   if (directive === null) return fields;
   const { path, value } = directive;
-  if (step <= shown) return changed(fields, path, { value, coming: null, asked: null, refusal: '' });
-  return changed(fields, path, { coming: { value, step }, asked: null, refusal: '' });
+  const others = replacedBy(path) === null ? fields : changed(fields, replacedBy(path)!, { value: '', coming: null });
+  if (step <= shown) return changed(others, path, { value, coming: null, asked: null, refusal: '' });
+  return changed(others, path, { coming: { value, step }, asked: null, refusal: '' });
+}
+
+/** A plan stands in the place of a preset, and the other way round. */
+export function replacedBy(path: string): string | null {
+  if (path === 'signals.plan') return 'signals.preset';
+  return path === 'signals.preset' ? 'signals.plan' : null;
+}
+
+/** The fields of a recording as they were at `step`; `changes` in their order. */
+export function fieldsAt(live: readonly LiveField[], changes: readonly Change[], step: number): Fields {
+  const begin: Fields = fieldsOf(live.map((field) => ({ ...field, value: field.initial })));
+  return changes
+    .filter((change) => change.step <= step)
+    .reduce((fields, change) => directed(fields, change.text, change.step, step), begin);
+}
+
+export interface Change {
+  readonly step: number;
+  readonly text: string; // "path=value"
 }
 
 /** Values whose step has come are in force. */
@@ -75,6 +97,20 @@ export function arrivedAt(fields: Fields, shown: number): Fields {
 export function directiveIn(text: string): { path: string; value: string } | null {
   const at = text.indexOf('=');
   return at <= 0 ? null : { path: text.slice(0, at).trim(), value: text.slice(at + 1).trim() };
+}
+
+export const flowPath = (approach: string) => `traffic.${approach}.flow_veh_per_h`;
+/** Where the sliders of flows end; more can be typed. */
+export const FLOW_SLIDER_VEH_PER_H = 3600;
+
+/** Values with the mean `mean` in the proportions that the fields have now; alike if all are 0 or `alike`. */
+export function spread(fields: readonly FieldState[], mean: number, alike: boolean): { path: string; value: string }[] {
+  const values = fields.map((field) => Number(wanted(field)));
+  const sum = values.reduce((a, b) => a + b, 0);
+  return fields.map(({ path, max }, i) => {
+    const share = alike || sum === 0 ? 1 : (values[i] * fields.length) / sum;
+    return { path, value: String(Math.min(max ?? Infinity, Math.round(mean * share))) };
+  });
 }
 
 /** Beyond this a range is no limit: it reaches over every road. */

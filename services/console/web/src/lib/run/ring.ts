@@ -30,11 +30,10 @@ export class ThinningRing<T extends Stepped> {
     this.items = [];
   }
 
-  /** A sample of the newest step replaces the one before; an older one (the run was restarted) clears the store. */
+  /** A sample of an older step (a recording went back) drops all from that step on. */
   push(item: T): void {
     const last = this.last;
-    if (last !== null && item.step < last.step) this.clear();
-    if (last !== null && item.step === last.step) this.items.pop();
+    if (last !== null && item.step <= last.step) this.items.length = this.indexAt(item.step - 1) + 1;
     this.items.push(item);
     if (this.items.length <= this.capacity) return;
     const older = this.items.length >> 1;

@@ -1,9 +1,16 @@
 // Columns for the charts, out of the stored samples.
 import type { Statistics } from '../../generated/console_pb';
+import type { Columns } from '../charts/plot';
 import { LANES } from '../wire/scene';
 import type { Sample } from './console.svelte';
 
 export type Column = (number | null)[];
+
+/** A place on the time axis; without statistics no line goes through it. */
+export interface Row {
+  readonly step: number;
+  readonly statistics: Statistics | null;
+}
 
 export interface Line {
   readonly label: string; // key of the page's words, or a lane
@@ -43,10 +50,26 @@ export const CHARTS: readonly Chart[] = [
   },
 ];
 
+/** The samples, with a gap wherever a recording has jumped between two. */
+export function rowsOf(samples: readonly Sample[]): Row[] {
+  const rows: Row[] = [];
+  samples.forEach((sample, i) => {
+    const before = samples[i - 1];
+    if (before !== undefined && before.statistics.seeks !== sample.statistics.seeks) {
+      rows.push({ step: (before.step + sample.step) / 2, statistics: null });
+    }
+    rows.push(sample);
+  });
+  return rows;
+}
+
 /** Time [s] and a column per line. */
-export function columnsOf(chart: Chart, samples: readonly Sample[], stepS: number): [number[], ...Column[]] {
-  const times = samples.map((sample) => sample.step * stepS);
-  return [times, ...chart.lines.map((line) => samples.map(({ statistics }) => numberOrGap(line.of(statistics))))];
+export function columnsOf(chart: Chart, rows: readonly Row[], stepS: number): Columns {
+  return [rows.map(({ step }) => step * stepS), ...chart.lines.map((line) => columnOf(line, rows))];
+}
+
+function columnOf(line: Line, rows: readonly Row[]): Column {
+  return rows.map(({ statistics }) => (statistics === null ? null : numberOrGap(line.of(statistics))));
 }
 
 /** All charts' values over time, a row per sample. */
@@ -66,10 +89,10 @@ export function seriesRows(samples: readonly Sample[], stepS: number): string[][
 /** Charts that can be compared with a ghost: those whose first line is all cars. */
 export const compares = (chart: Chart) => chart.lines[0].label === 'tile.all';
 
-/** The ghost's line of all cars at the times of `samples`: at each its newest value up to then. */
-export function ghostColumn(chart: Chart, ghost: readonly Sample[], samples: readonly Sample[]): Column {
+/** The ghost's line of all cars at the times of `rows`: at each its newest value up to then. */
+export function ghostColumn(chart: Chart, ghost: readonly Sample[], rows: readonly Row[]): Column {
   let at = -1;
-  return samples.map(({ step }) => {
+  return rows.map(({ step }) => {
     while (at + 1 < ghost.length && ghost[at + 1].step <= step) ++at;
     const ended = at === ghost.length - 1 && ghost[at]?.step < step;
     return at < 0 || ended ? null : numberOrGap(chart.lines[0].of(ghost[at].statistics));

@@ -16,3 +16,17 @@ export function neighbour(pace: number, by: 1 | -1): string {
   const next = ordered.find((preset) => (by > 0 ? fastness(preset.pace) > now : fastness(preset.pace) < now));
   return (next ?? ordered[ordered.length - 1]).word;
 }
+
+/** Ends of the speed's slider, which goes by powers of ten; at its upper end it means as fast as possible. */
+export const SLOWEST = -1;
+export const FASTEST = 3;
+
+/** Where a pace stands on the slider. */
+export function placeOf(pace: number): number {
+  return pace <= 0 ? FASTEST : Math.min(FASTEST, Math.max(SLOWEST, Math.log10(pace)));
+}
+
+/** What a place on the slider asks for, in two digits: "0.25", "37", "max". */
+export function paceAt(place: number): string {
+  return place >= FASTEST ? 'max' : String(Number((10 ** place).toPrecision(2)));
+}

@@ -1,6 +1,6 @@
 // Cars: true length and width, turned along their path. With an on-board unit: a bright mark on the roof.
 import type { Scene } from '../wire/scene';
-import { ADVICE_IN_FORCE, NOTHING_MISSED } from '../wire/scene';
+import { ADVICE_IN_FORCE, HEARD, NOT_SENT, NOTHING_MISSED } from '../wire/scene';
 import type { Camera } from './camera';
 import { carColour, type Colouring } from './colouring';
 import type { Moment } from './interpolation';
@@ -69,7 +69,8 @@ function drawCar(context: CanvasRenderingContext2D, scale: number, scene: Scene,
     const length = Math.max(lengthM, (1.6 * LEAST_WIDTH_PX) / scale);
     context.fillStyle = carColour(scene, i, look.colouring, palette, look.speedLimitMps);
     context.fillRect(-(lengthM + length) / 2, -width / 2, length, width);
-    if (look.radio && scene.equipped[i]) drawRadio(context, scale, scene, i, look);
+    if (look.radio && scene.equipped[i]) drawDownlink(context, scale, scene, i, look);
+    if (look.radio && scene.uplink[i] !== HEARD) drawUplink(context, scale, scene, i, look);
     if (scene.vehicle[i] === look.selected) ring(context, scale, look, palette.selected);
     return;
   }
@@ -97,7 +98,8 @@ function drawCar(context: CanvasRenderingContext2D, scale: number, scene: Scene,
     context.fillRect(-lengthM - 0.05, half - 0.6, 0.4, 0.54);
   }
   if (scene.guidance[i] === ADVICE_IN_FORCE) drawAdvice(context, scene.commandedMps2[i], look);
-  if (look.radio && scene.equipped[i]) drawRadio(context, scale, scene, i, look);
+  if (look.radio && scene.equipped[i]) drawDownlink(context, scale, scene, i, look);
+  if (look.radio) drawUplink(context, scale, scene, i, look);
   if (scene.vehicle[i] === look.selected) ring(context, scale, look, palette.selected);
 }
 
@@ -112,7 +114,8 @@ function drawAdvice(context: CanvasRenderingContext2D, commandedMps2: number, lo
   context.fillRect(Math.min(middle, middle + reach), side, Math.abs(reach), 0.26);
 }
 
-function drawRadio(context: CanvasRenderingContext2D, scale: number, scene: Scene, i: number, look: CarLook): void {
+/** What came from the RSU: a ring around a car that has just heard advice, a cross over one that missed the newest word. */
+function drawDownlink(context: CanvasRenderingContext2D, scale: number, scene: Scene, i: number, look: CarLook): void {
   const missed = scene.missed[i] !== NOTHING_MISSED;
   const fresh = scene.adviceAge[i] >= 0 && scene.adviceAge[i] <= 1;
   if (!missed && !fresh) return;
@@ -129,6 +132,33 @@ function drawRadio(context: CanvasRenderingContext2D, scale: number, scene: Scen
   } else {
     context.arc(middle, 0, Math.max(look.lengthM * 0.62, 4 / scale), 0, 2 * Math.PI);
   }
+  context.stroke();
+}
+
+/**
+ * What went to the RSU: a wedge on the right side, out of the car. Full: the newest message was heard. Hollow and struck
+ * through: it was lost.
+ */
+function drawUplink(context: CanvasRenderingContext2D, scale: number, scene: Scene, i: number, look: CarLook): void {
+  const fate = scene.uplink[i];
+  if (fate === NOT_SENT) return;
+  const half = Math.max(0.75, 3.2 / scale);
+  const foot = look.widthM / 2 + Math.max(0.12, 0.8 / scale);
+  const middle = -look.lengthM / 2;
+  context.beginPath();
+  context.moveTo(middle - half, foot);
+  context.lineTo(middle + half, foot);
+  context.lineTo(middle, foot + 1.5 * half);
+  context.closePath();
+  if (fate === HEARD) {
+    context.fillStyle = look.palette.advice;
+    context.fill();
+    return;
+  }
+  context.moveTo(middle - 1.5 * half, foot + 1.5 * half);
+  context.lineTo(middle + 1.5 * half, foot - 0.3 * half);
+  context.lineWidth = Math.max(0.22, 1.4 / scale);
+  context.strokeStyle = look.palette.lost;
   context.stroke();
 }
 

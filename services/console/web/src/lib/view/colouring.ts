@@ -2,7 +2,7 @@
 import type { Scene } from '../wire/scene';
 import { REGIME_COLOURS, scaleColour, type Palette } from './palette';
 
-export const COLOURINGS = ['equipped', 'speed', 'waiting', 'regime', 'age'] as const;
+export const COLOURINGS = ['equipped', 'speed', 'waiting', 'regime', 'age', 'heard'] as const;
 export type Colouring = (typeof COLOURINGS)[number];
 
 /** Upper ends of the scales. */
@@ -15,6 +15,10 @@ const shades = Array.from({ length: SHADES + 1 }, (_, i) => scaleColour(i / SHAD
 
 function shade(share: number): string {
   return shades[Math.round(Math.min(1, Math.max(0, share)) * SHADES)];
+}
+
+function aged(steps: number, palette: Palette): string {
+  return steps < 0 ? palette.unknown : shade(1 - steps / AGE_FULL_STEPS);
 }
 
 export function carColour(
@@ -34,6 +38,8 @@ export function carColour(
     case 'regime':
       return REGIME_COLOURS[scene.boundBy[index]] ?? palette.unknown;
     case 'age':
-      return scene.adviceAge[index] < 0 ? palette.unknown : shade(1 - scene.adviceAge[index] / AGE_FULL_STEPS);
+      return aged(scene.adviceAge[index], palette);
+    case 'heard':
+      return aged(scene.heardAge[index], palette);
   }
 }

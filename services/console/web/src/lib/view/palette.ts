@@ -1,6 +1,7 @@
 // Colours of the drawing, in both themes. Chosen so that equipped and unequipped differ in lightness as well as in hue.
 
-export type Theme = 'light' | 'dark';
+export const THEMES = ['light', 'dark'] as const;
+export type Theme = (typeof THEMES)[number];
 
 export interface Palette {
   ground: string;

@@ -1,4 +1,4 @@
-// The picture as a PNG file, as it stands on the screen.
+// What leaves the page: the picture as a PNG file, as it stands on the screen, other files, and the clipboard.
 
 export function savePicture(layers: readonly HTMLCanvasElement[], name: string): void {
   const sheet = document.createElement('canvas');
@@ -10,6 +10,17 @@ export function savePicture(layers: readonly HTMLCanvasElement[], name: string):
   sheet.toBlob((blob) => {
     if (blob !== null) saveAs(blob, name);
   }, 'image/png');
+}
+
+/** Browsers give the clipboard to pages of this host or of https alone; elsewhere a field that is copied does. */
+export async function copyText(text: string): Promise<void> {
+  if (navigator.clipboard !== undefined) return navigator.clipboard.writeText(text);
+  const field = document.createElement('textarea');
+  field.value = text;
+  document.body.append(field);
+  field.select();
+  document.execCommand('copy');
+  field.remove();
 }
 
 /** Hands a file to the browser's downloads. */

@@ -5,6 +5,8 @@ import { drawCars } from './cars';
 import { drawHeads } from './heads';
 import { momentBetween, type Moment } from './interpolation';
 import { PALETTES, type Palette, type Theme } from './palette';
+import type { Place } from './path';
+import { drawAntennas, drawWay } from './radio';
 import { drawRoads } from './roads';
 import type { ViewState } from './view_state.svelte';
 
@@ -76,11 +78,11 @@ export class Stage {
   }
 
   private follow(): void {
-    const { view, run, moment } = this;
+    const { view, moment } = this;
     if (!view.following || view.selected === null || moment === null) return;
     const i = moment.scene.vehicle.indexOf(view.selected);
     if (i < 0) return;
-    const place = run.paths[moment.scene.lane[i]]?.place(moment.positionM[i] - (run.hello?.vehicleLengthM ?? 0) / 2);
+    const place = this.middleOf(moment.scene.lane[i], moment.positionM[i]);
     if (place !== undefined) view.centreOn(place.xM, place.yM);
   }
 
@@ -90,7 +92,7 @@ export class Stage {
     moving.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     moving.clearRect(0, 0, view.camera.size.width, view.camera.size.height);
     if (moment === null || hello === null) return;
-    if (view.radio) this.drawAntennas(palette);
+    if (view.radio) this.drawRadio(palette, moment);
     this.carsDrawn = drawCars(moving, view.camera, run.paths, moment, {
       lengthM: hello.vehicleLengthM,
       widthM: hello.vehicleWidthM,
@@ -111,35 +113,20 @@ export class Stage {
     this.movingCanvas.dataset.frames = String(++this.frames);
   }
 
-  /** The RSUs' antennas and how far they are heard, where a limit is set. */
-  private drawAntennas(palette: Palette): void {
+  /** Behind the cars. */
+  private drawRadio(palette: Palette, { scene, positionM }: Moment): void {
     const { moving, run, view } = this;
-    const rangeM = rangeOf(run.fields);
-    moving.strokeStyle = palette.advice;
-    moving.fillStyle = palette.advice;
-    for (const antenna of run.hello?.antennas ?? []) {
-      const x = view.camera.toScreenX(antenna.xM);
-      const y = view.camera.toScreenY(antenna.yM);
-      moving.lineWidth = 2;
-      moving.beginPath();
-      moving.moveTo(x, y + 9);
-      moving.lineTo(x, y);
-      moving.stroke();
-      moving.beginPath();
-      moving.arc(x, y, 3.5, 0, 2 * Math.PI);
-      moving.fill();
-      for (const radius of [8, 13]) {
-        moving.beginPath();
-        moving.arc(x, y, radius, -2.4, -0.75);
-        moving.stroke();
-      }
-      if (rangeM === null) continue;
-      moving.setLineDash([8, 6]);
-      moving.beginPath();
-      moving.arc(x, y, rangeM * view.camera.scale, 0, 2 * Math.PI);
-      moving.stroke();
-      moving.setLineDash([]);
-    }
+    const look = { antennas: run.hello?.antennas ?? [], rangeM: rangeOf(run.fields), palette };
+    drawAntennas(moving, view.camera, look);
+    const i = view.selected === null ? -1 : scene.vehicle.indexOf(view.selected);
+    if (i < 0) return;
+    const place = this.middleOf(scene.lane[i], positionM[i]);
+    if (place !== undefined) drawWay(moving, view.camera, look, place, scene.uplink[i]);
+  }
+
+  /** Where the middle of a car is whose front is at `positionM` of its lane. */
+  private middleOf(lane: number, positionM: number): Place | undefined {
+    return this.run.paths[lane]?.place(positionM - (this.run.hello?.vehicleLengthM ?? 0) / 2);
   }
 
   private tell(nowMs: number): void {

@@ -2,6 +2,7 @@
 import { CROSSED, type Scene } from '../wire/scene';
 import { Camera } from './camera';
 import { COLOURINGS, type Colouring } from './colouring';
+import type { Section, Sight } from './link';
 
 export const TABS = ['figures', 'signals', 'log'] as const;
 export type Tab = (typeof TABS)[number];
@@ -22,9 +23,10 @@ export class ViewState {
   shown = $state.raw<Scene | null>(null); // follows what the picture shows, a few times a second
 
   readonly camera = new Camera();
-  cameraMoves = 0; // counts moves of the camera
+  cameraMoves = $state(0); // counts moves of the camera
   private reachM = 70;
   private fitted = true;
+  private linked: Section | null = null; // what a link says is in sight, until it can be shown
 
   select(vehicle: number | null): void {
     this.selected = vehicle;
@@ -42,8 +44,42 @@ export class ViewState {
     this.select(vehicles[next]);
   }
 
+  /** What is in sight; of a picture that is moved or zoomed, its middle too. */
+  section(): Section {
+    if (this.fitted) return { reachM: this.reachM / MARGIN, centre: null };
+    const { size, scale, xM, yM } = this.camera;
+    return { reachM: Math.min(size.width, size.height) / (2 * scale * MARGIN), centre: { xM, yM } };
+  }
+
+  /** Takes over what a link says; what is in sight with the next showLinked(). */
+  restore(sight: Partial<Sight>): void {
+    if (sight.tab !== undefined) this.tab = sight.tab;
+    if (sight.colouring !== undefined) this.colouring = sight.colouring;
+    this.radio = sight.radio ?? this.radio;
+    if (sight.car !== undefined) this.select(sight.car);
+    this.following = sight.follow ?? this.following;
+    if (sight.lane != null) this.choosePlan(sight.lane);
+    this.linked = sight.section ?? null;
+  }
+
+  /** Shows what a link says is in sight, once; false if there is nothing to show. */
+  showLinked(): boolean {
+    if (this.linked === null) return false;
+    const { reachM, centre } = this.linked;
+    const { following } = this;
+    this.linked = null;
+    this.fit(reachM);
+    if (centre !== null) this.centreOn(centre.xM, centre.yM);
+    this.following = following;
+    return true;
+  }
+
   openPlan(lane: number): void {
     this.tab = 'signals';
+    this.choosePlan(lane);
+  }
+
+  private choosePlan(lane: number): void {
     this.planLane = lane;
     ++this.planAsked;
   }

@@ -10,6 +10,11 @@ export const GREEN = 3;
 
 /** No word was missed: the value of `missed` then. */
 export const NOTHING_MISSED = 255;
+/** Of a car's newest message to the roadside: heard by an RSU, or it has sent none; what lies between is how it was lost. */
+export const HEARD = 0;
+export const NOT_SENT = 255;
+/** How messages are lost: 1 + place here. As in radio.csv. */
+export const LOSS_CAUSES = ['random', 'burst', 'range', 'path_loss', 'collision', 'half_duplex', 'outage'] as const;
 /** State of a car that has crossed its stop line. */
 export const CROSSED = 3;
 /** Guidance states that the page tells apart in its drawing. */
@@ -30,6 +35,8 @@ export interface Scene {
   missed: Uint8Array;
   stoodS: Float32Array;
   adviceAge: Int32Array; // steps; -1: never one
+  uplink: Uint8Array; // HEARD, 1 + place in LOSS_CAUSES, or NOT_SENT
+  heardAge: Int32Array; // steps since the newest message that an RSU has heard was sent; -1: none was
   heads: Uint8Array;
   changeIn: Int32Array; // steps; -1: not known
   nextAspect: Uint8Array;
@@ -55,6 +62,8 @@ export function sceneOf(picture: Picture, before: Scene | null): Scene {
     missed: picture.missed.slice(),
     stoodS: Float32Array.from(picture.stoodS),
     adviceAge: Int32Array.from(picture.adviceAge),
+    uplink: picture.uplink.slice(),
+    heardAge: Int32Array.from(picture.heardAge),
     heads: picture.heads.slice(),
     changeIn: Int32Array.from(picture.changeIn),
     nextAspect: picture.nextAspect.slice(),
@@ -72,6 +81,11 @@ export function indexOf(scene: Scene, vehicle: number): number {
 /** Place of the car ahead on the same lane, or -1: cars stand lane after lane, front to back. */
 export function aheadOf(scene: Scene, index: number): number {
   return index > 0 && scene.lane[index - 1] === scene.lane[index] ? index - 1 : -1;
+}
+
+/** How the newest message to the roadside of a car was lost; null: it was not. */
+export function uplinkLoss(scene: Scene, index: number): (typeof LOSS_CAUSES)[number] | null {
+  return LOSS_CAUSES[scene.uplink[index] - 1] ?? null;
 }
 
 export function laneName(lane: number): string {

@@ -1,4 +1,14 @@
-import { arrivedAt, asked, directed, directiveIn, fieldsOf, refusedWith, wanted } from '@page/lib/run/fields';
+import {
+  arrivedAt,
+  asked,
+  directed,
+  directiveIn,
+  fieldsAt,
+  fieldsOf,
+  refusedWith,
+  spread,
+  wanted,
+} from '@page/lib/run/fields';
 
 const PATH = 'traffic.west.flow_veh_per_h';
 const live = () =>
@@ -8,6 +18,7 @@ const live = () =>
       path: PATH,
       unit: 'veh/h',
       value: '1800',
+      initial: '1800',
       min: 0,
       max: 10800,
       source: '',
@@ -50,5 +61,53 @@ describe('a field that may change while the run goes on', () => {
     expect(directed(live(), 'run.seed=5', 1, 0).size).toBe(1);
     expect(directiveIn('paused')).toBeNull();
     expect(directiveIn('signals.plan={cycle_s: 90}')).toEqual({ path: 'signals.plan', value: '{cycle_s: 90}' });
+  });
+
+  it('of a recording has the value of the step that is shown, whichever way time went', () => {
+    const live = [
+      {
+        $typeName: 'lukou.console.LiveField' as const,
+        path: PATH,
+        unit: 'veh/h',
+        value: '300', // in the end
+        initial: '1800',
+        source: '',
+        words: [],
+      },
+    ];
+    const changes = [
+      { step: 200, text: `${PATH}=900` },
+      { step: 5000, text: `${PATH}=300` },
+    ];
+    const values = [100, 6000, 300, 0].map((step) => fieldsAt(live, changes, step).get(PATH)?.value);
+    expect(values).toEqual(['1800', '300', '900', '1800']);
+  });
+});
+
+describe('all flows together', () => {
+  const flows = (...values: string[]) =>
+    fieldsOf(
+      values.map((value, i) => ({
+        $typeName: 'lukou.console.LiveField',
+        path: `flow${i}`,
+        unit: '',
+        value,
+        initial: value,
+        max: 10800,
+        source: '',
+        words: [],
+      })),
+    );
+  const values = (...args: Parameters<typeof spread>) => spread(...args).map(({ value }) => value);
+
+  it('are alike, or keep their proportions', () => {
+    const fields = [...flows('2000', '700').values()];
+    expect(values(fields, 900, true)).toEqual(['900', '900']);
+    expect(values(fields, 2700, false)).toEqual(['4000', '1400']);
+  });
+
+  it('are alike when there is nothing to keep, and stay within their range', () => {
+    expect(values([...flows('0', '0').values()], 500, false)).toEqual(['500', '500']);
+    expect(values([...flows('10000', '2000').values()], 9000, false)).toEqual(['10800', '3000']);
   });
 });

@@ -31,8 +31,10 @@ describe('the store of samples', () => {
     expect(ring.all()).toEqual([{ step: 1, text: 'b' }]);
   });
 
-  it('begins anew when the steps do', () => {
+  it('drops what comes again when the steps go back', () => {
     const ring = filled(8, 5);
+    ring.push({ step: 2 });
+    expect(steps(ring)).toEqual([0, 1, 2]);
     ring.push({ step: 0 });
     expect(steps(ring)).toEqual([0]);
   });

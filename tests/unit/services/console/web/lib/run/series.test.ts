@@ -1,4 +1,4 @@
-import { CHARTS, columnsOf, compares, ghostColumn, seriesRows, type Chart } from '@page/lib/run/series';
+import { CHARTS, columnsOf, compares, ghostColumn, rowsOf, seriesRows, type Chart } from '@page/lib/run/series';
 import type { Sample } from '@page/lib/run/console.svelte';
 
 const sample = (step: number, delay?: number): Sample =>
@@ -21,6 +21,15 @@ describe('the columns of a chart', () => {
     const ghost = [sample(10, 1), sample(20, 2), sample(30, 3)];
     const now = [sample(5), sample(10), sample(25), sample(30), sample(31)];
     expect(ghostColumn(chart('delay'), ghost, now)).toEqual([null, 1, 2, 3, null]);
+  });
+
+  it('join nothing across a jump of a recording', () => {
+    const jumped = (step: number, seeks: number, delay: number): Sample =>
+      ({ step, statistics: { seeks, all: { meanDelayS: delay } } }) as unknown as Sample;
+    const rows = rowsOf([jumped(10, 0, 1), jumped(20, 0, 2), jumped(60, 1, 6), jumped(70, 1, 7)]);
+    const [times, all] = columnsOf(chart('delay'), rows, 0.1);
+    expect(times).toEqual([1, 2, 4, 6, 7]);
+    expect(all).toEqual([1, 2, null, 6, 7]);
   });
 
   it('are saved with a name each, empty where there is no value', () => {

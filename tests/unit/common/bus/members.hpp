@@ -32,10 +32,17 @@ inline auto members(ReceptionReport& r) {
                   half_duplex, outage, busy, latency);
 }
 
+inline auto members(FrameFates& f) {
+  auto& [fate, due, latency] = f;
+  return std::tie(fate, due, latency);
+}
+
 inline auto members(RoadsideBatch& b) {
-  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception, requests, computing] = b;
-  return std::tuple_cat(std::tie(rsu, epoch, step, heard, malformed, answers, requests, computing), members(frames),
-                        members(reception));
+  auto& [rsu, epoch, step, frames, heard, malformed, answers, reception, requests, computing, uplink, request_lanes,
+         request_lifetime] = b;
+  return std::tuple_cat(
+      std::tie(rsu, epoch, step, heard, malformed, answers, requests, computing, request_lanes, request_lifetime),
+      members(frames), members(reception), members(uplink));
 }
 
 inline auto members(RequestBatch& b) {
@@ -53,14 +60,16 @@ inline auto members(TrafficBatch& b) {
          missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane, entered_equipped,
          entered_speed, entered_desired, crossed, crossed_time, crossed_aspect, crossed_committed, left, left_time,
          fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued, fate_commanded, answers, guard, overflow,
-         heard, requests, reception, fate_kind, fate_speed, computing] = b;
+         heard, requests, reception, fate_kind, fate_speed, computing, uplink_vehicle, uplink_rsu, uplink, air, sensed,
+         said, said_rsu, asked_rsu, asked_lanes, asked_lifetime] = b;
   return std::tuple_cat(
       std::tie(step, vehicle, lane, state, equipped, position, speed, acceleration, commanded, noise, guidance,
                bound_by, missed, arrived, waiting, arrived_equipped, waiting_equipped, entered, entered_lane,
                entered_equipped, entered_speed, entered_desired, crossed, crossed_time, crossed_aspect,
                crossed_committed, left, left_time, fate_vehicle, fate_rsu, fate_sequence, fate, fate_again, fate_issued,
-               fate_commanded, answers, guard, overflow, heard, requests, fate_kind, fate_speed, computing),
-      members(reception));
+               fate_commanded, answers, guard, overflow, heard, requests, fate_kind, fate_speed, computing,
+               uplink_vehicle, uplink_rsu, said_rsu, asked_rsu, asked_lanes, asked_lifetime),
+      members(reception), members(uplink), members(air), members(sensed), members(said));
 }
 
 inline auto members(Control& m) {
@@ -90,10 +99,10 @@ inline auto members(FigureColumns& f) {
 inline auto members(View& m) {
   auto& [step, figures, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed, acceleration,
          commanded, guidance, bound_by, missed, stood, advice, heads, change, next, direction, kind, sent, radio_heard,
-         lost, latency] = m;
+         lost, latency, uplink, heard_step] = m;
   return std::tuple_cat(std::tie(step, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed,
                                  acceleration, commanded, guidance, bound_by, missed, stood, advice, heads, change,
-                                 next, direction, kind, sent, radio_heard, lost, latency),
+                                 next, direction, kind, sent, radio_heard, lost, latency, uplink, heard_step),
                         members(figures));
 }
 
