@@ -1,40 +1,18 @@
 #include "common/bus/cyclone_config.hpp"
 
 #include "common/core/hash.hpp"
+#include "common/core/markup.hpp"
 
 namespace lukou::bus {
 namespace {
-
-std::string xml(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string fragment(const std::string& body) { return "<Domain id=\"any\">" + body + "</Domain>"; }
 
 std::string network(const CycloneSettings& settings) {
   const bool hosts = !settings.peers.empty();
-  const std::string interface = hosts ? "address=\"" + xml(settings.own_address) + "\"" : "name=\"lo\"";
+  const std::string interface = hosts ? "address=\"" + markup_text(settings.own_address) + "\"" : "name=\"lo\"";
   std::string peers;
-  for (const std::string& peer : settings.peers) peers += "<Peer Address=\"" + xml(peer) + "\"/>";
+  for (const std::string& peer : settings.peers) peers += "<Peer Address=\"" + markup_text(peer) + "\"/>";
   if (!hosts) peers = "<Peer Address=\"127.0.0.1\"/>";
   return "<General><Interfaces><NetworkInterface " + interface + " multicast=\"false\"/></Interfaces>" +
          "<AllowMulticast>false</AllowMulticast></General>"
@@ -45,11 +23,11 @@ std::string network(const CycloneSettings& settings) {
 
 std::string security(const Identity& identity, const std::string& plugins) {
   const auto library = [&](const std::string& file, const std::string& what) {
-    return "<Library path=\"" + xml(plugins + "/libdds_security_" + file + ".so") + "\" initFunction=\"init_" + what +
-           "\" finalizeFunction=\"finalize_" + what + "\"/>";
+    return "<Library path=\"" + markup_text(plugins + "/libdds_security_" + file + ".so") + "\" initFunction=\"init_" +
+           what + "\" finalizeFunction=\"finalize_" + what + "\"/>";
   };
   const auto file = [&](const std::string& element, std::string_view name) {
-    return "<" + element + ">file:" + xml((identity.folder / name).string()) + "</" + element + ">";
+    return "<" + element + ">file:" + markup_text((identity.folder / name).string()) + "</" + element + ">";
   };
   return "<Security><Authentication>" + library("auth", "authentication") + file("IdentityCA", kAuthorityFile) +
          file("IdentityCertificate", kCertificateFile) + file("PrivateKey", kKeyFile) +

@@ -195,8 +195,29 @@ std::set<Incarnation> Writer<Batch>::matched() const {
   return found;
 }
 
+/// Where Cyclone puts what a reader takes. Kept from take to take, so that sequences keep their storage; what Cyclone
+/// lends it allocates and frees anew for each sample.
 template <class Batch>
-Reader<Batch>::Reader(Participant& participant) : participant_(participant) {
+struct Reader<Batch>::Landing {
+  static constexpr std::size_t kMost = 16;
+  std::array<typename TopicOf<Batch>::Sample, kMost> samples{};
+  std::array<void*, kMost> places{};
+
+  Landing() {
+    for (std::size_t i = 0; i < kMost; ++i) places[i] = &samples[i];
+  }
+  Landing(const Landing&) = delete;
+  Landing& operator=(const Landing&) = delete;
+  ~Landing() {
+    for (auto& sample : samples) dds_sample_free(&sample, TopicOf<Batch>::descriptor(), DDS_FREE_CONTENTS);
+  }
+};
+
+template <class Batch>
+Reader<Batch>::~Reader() = default;
+
+template <class Batch>
+Reader<Batch>::Reader(Participant& participant) : participant_(participant), landing_(std::make_unique<Landing>()) {
   auto& entities = participant_.entities();
   const Qos qos = qos_of(TopicOf<Batch>::kService, false, entities);
   dds_listener_t* listener = dds_create_listener(&entities);
@@ -213,18 +234,17 @@ const char* Reader<Batch>::topic() {
 
 template <class Batch>
 void Reader<Batch>::take(const std::function<void(Batch&, const SampleInfo&)>& receive) {
-  constexpr std::size_t kMost = 16;
+  constexpr std::size_t kMost = Landing::kMost;
   constexpr std::size_t kMostAtOnce = 4096;
-  std::array<void*, kMost> samples{};
   std::array<dds_sample_info_t, kMost> infos{};
   // A producer's death is told after all that it said: its last samples may still be here when it is gone already.
   std::set<Incarnation> dead;
   std::size_t taken = 0;
   for (bool more = true; more;) {
-    const dds_return_t count = dds_take(entity_, samples.data(), infos.data(), kMost, kMost);
+    const dds_return_t count = dds_take(entity_, landing_->places.data(), infos.data(), kMost, kMost);
     if (count <= 0) break;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto& sample = *static_cast<const typename TopicOf<Batch>::Sample*>(samples[i]);
+      const auto& sample = landing_->samples[i];
       const SampleInfo info = info_of(sample);
       const Incarnation writer = sender_of(infos[i].publication_handle);
       const Belief belief = infos[i].valid_data ? belief_in(writer, info.producer) : Belief::kIgnored;
@@ -247,8 +267,6 @@ void Reader<Batch>::take(const std::function<void(Batch&, const SampleInfo&)>& r
         dead.insert(info.producer);
       }
     }
-    dds_return_loan(entity_, samples.data(), count);
-    samples.fill(nullptr);
     taken += static_cast<std::size_t>(count);
     more = static_cast<std::size_t>(count) == kMost;
     if (more && taken >= kMostAtOnce) {

@@ -106,6 +106,7 @@ template <class Batch>
 class Reader {
  public:
   explicit Reader(Participant& participant);
+  ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
@@ -123,11 +124,14 @@ class Reader {
   [[nodiscard]] std::set<Incarnation> matched();
 
  private:
+  struct Landing;
+
   Incarnation sender_of(WriterHandle writer);
   [[nodiscard]] Belief belief_in(Incarnation writer, Incarnation producer) const;
 
   Participant& participant_;
   std::int32_t entity_ = 0;
+  std::unique_ptr<Landing> landing_;
   Senders senders_;
   std::function<Belief(Incarnation)> believes_;
   std::function<void(Incarnation, const std::string&)> flawed_;

@@ -7,7 +7,7 @@
 #include "common/lockstep/messages.hpp"
 
 // Between the plain batches and the structs that idlc generates. Writing lends the batch's own storage to Cyclone;
-// reading copies out of Cyclone's loan.
+// reading copies out of the sample that Cyclone filled.
 
 namespace lukou::bus {
 

@@ -1,6 +1,8 @@
 #include "common/intersection/conflicts.hpp"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "common/intersection/geometry.hpp"
 
@@ -9,30 +11,37 @@ namespace {
 
 constexpr double kCarWidth_m = 1.8;
 
-bool paths_meet(Lane a, Lane b) {
-  const RoadLengths road;
+/// A lane's path through the junction, every half metre.
+std::vector<Pose> sampled_path(Lane lane) {
   constexpr double kSample_m = 0.5;
-  for (int i = 0; i * kSample_m <= curve_length_m(a); ++i) {
-    const Pose p = pose_on_path(road, a, road.approach_m + i * kSample_m);
-    for (int j = 0; j * kSample_m <= curve_length_m(b); ++j) {
-      const Pose q = pose_on_path(road, b, road.approach_m + j * kSample_m);
+  const RoadLengths road;
+  std::vector<Pose> path;
+  for (int i = 0; i * kSample_m <= curve_length_m(lane); ++i)
+    path.push_back(pose_on_path(road, lane, road.approach_m + i * kSample_m));
+  return path;
+}
+
+bool paths_meet(const std::vector<Pose>& a, const std::vector<Pose>& b) {
+  return std::ranges::any_of(a, [&](const Pose& p) {
+    return std::ranges::any_of(b, [&](const Pose& q) {
       const double dx = p.x_m - q.x_m;
       const double dy = p.y_m - q.y_m;
-      if (dx * dx + dy * dy < kCarWidth_m * kCarWidth_m) return true;
-    }
-  }
-  return false;
+      return dx * dx + dy * dy < kCarWidth_m * kCarWidth_m;
+    });
+  });
 }
 
 using Matrix = std::array<std::array<Conflict, kLanes>, kLanes>;
 
 Matrix conflict_matrix() {
   Matrix matrix{};
+  std::array<std::vector<Pose>, kLanes> paths;
+  for (const Lane lane : kAllLanes) paths[index(lane)] = sampled_path(lane);
   for (int i = 0; i < kLanes; ++i) {
     for (int j = 0; j < kLanes; ++j) {
       const auto a = static_cast<Lane>(i);
       const auto b = static_cast<Lane>(j);
-      if (approach_of(a) == approach_of(b) || !paths_meet(a, b)) continue;
+      if (approach_of(a) == approach_of(b) || !paths_meet(paths[index(a)], paths[index(b)])) continue;
       const bool opposed = (static_cast<int>(approach_of(a)) + 2) % kApproaches == static_cast<int>(approach_of(b));
       matrix[index(a)][index(b)] = opposed ? Conflict::kPermitted : Conflict::kHard;
     }

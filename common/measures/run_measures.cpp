@@ -5,18 +5,11 @@
 #include <utility>
 
 #include "common/core/contract.hpp"
-#include "common/measures/free_motion.hpp"
 
 namespace lukou {
 namespace {
 
 constexpr auto kExit = static_cast<std::uint8_t>(CarState::kExit);
-constexpr double kSecondsPerHour = 3600.0;
-
-std::optional<double> ratio(double sum, std::uint64_t count) {
-  if (count == 0) return std::nullopt;
-  return sum / static_cast<double>(count);
-}
 
 /// Whether an advice with this fate came to the car's unit.
 bool reached(AdviceFate fate) {
@@ -96,6 +89,7 @@ void RunMeasures::add(const TrafficBatch& batch) {
 }
 
 void RunMeasures::add_entries(const TrafficBatch& batch) {
+  entrance_.add_arrivals(batch);
   for (std::size_t i = 0; i < batch.entered_vehicle.size(); ++i) {
     Record entering;
     FinishedCar& car = entering.car;
@@ -106,12 +100,15 @@ void RunMeasures::add_entries(const TrafficBatch& batch) {
     car.initial_speed_mps = batch.entered_speed_mps[i];
     car.theoretical_time_s = theoretical_time_s(parameters_.road.approach_m, car.initial_speed_mps,
                                                 parameters_.speed_limit_mps, parameters_.acceleration_max_mps2);
-    entering.free_time_s = free_time_s({.initial_mps = car.initial_speed_mps,
-                                        .desired_mps = batch.entered_desired_speed_mps[i],
-                                        .relaxation_s = parameters_.speed_relaxation_s,
-                                        .acceleration_max_mps2 = parameters_.acceleration_max_mps2},
-                                       parameters_.road.approach_m + parameters_.road.exit_m);
+    entering.driver = {.initial_mps = car.initial_speed_mps,
+                       .desired_mps = batch.entered_desired_speed_mps[i],
+                       .relaxation_s = parameters_.speed_relaxation_s,
+                       .acceleration_max_mps2 = parameters_.acceleration_max_mps2};
+    entering.free_time_s = free_time_s(entering.driver, parameters_.road.approach_m + parameters_.road.exit_m);
     entering.counts = batch.step >= warmup_step_;
+    const Step arrived = entrance_.enter(kAllApproaches[car.vehicle % kApproaches], car.equipped);
+    entering.waited_s = time_s(batch.step - arrived);
+    entering.arrival_counts = arrived >= warmup_step_;
     Records& records = records_[car.vehicle % kApproaches];
     LUKOU_EXPECT(car.vehicle / kApproaches == records.first + records.cars.size());
     ++sums(entering).entered;
@@ -244,6 +241,7 @@ void RunMeasures::add_departures(const TrafficBatch& batch) {
     ++group.left_ever;
     group.delay_ever_s += car.delay_s;
     group.burnt += leaving.fuel;
+    if (leaving.arrival_counts) group.after_arrival += {1, leaving.waited_s, leaving.waited_s + car.delay_s};
     if (!leaving.counts) continue;
     ++group.left;
     group.delay_s += car.delay_s;
@@ -300,89 +298,8 @@ RunMeasures::Sums& RunMeasures::Sums::operator+=(const Sums& other) {
   fuel_ml += other.fuel_ml;
   fuel_standing_ml += other.fuel_standing_ml;
   burnt += other.burnt;
+  after_arrival += other.after_arrival;
   return *this;
-}
-
-GroupFigures RunMeasures::figures_of(const Sums& sums) const {
-  GroupFigures group;
-  group.vehicles_arrived = sums.arrived;
-  group.vehicles_entered = sums.entered;
-  group.vehicles_left = sums.left_ever;
-  group.vehicles_waiting = sums.waiting;
-  const double hours = (time_s(step_) - parameters_.warmup_s) / kSecondsPerHour;
-  if (hours > 0.0) {
-    group.throughput_intersection_veh_per_h = static_cast<double>(sums.crossed_after_warmup) / hours;
-    group.throughput_veh_per_h = *group.throughput_intersection_veh_per_h / kApproaches;
-  }
-  group.cars = sums.crossed;
-  group.mean_delta_s = ratio(sums.delta_s, sums.crossed);
-  group.mean_delay_s = ratio(sums.delay_s, sums.left);
-  group.mean_stop_time_s =
-      ratio(static_cast<double>(sums.standing_steps) / static_cast<double>(kStepsPerSecond), sums.crossed);
-  group.stops_per_vehicle = ratio(static_cast<double>(sums.stops), sums.crossed);
-  group.mean_queue_veh = ratio(static_cast<double>(sums.queued_steps), measured_steps_ * kLanes);
-  group.mean_abs_acceleration_mps2 = ratio(sums.acceleration_mps2, sums.driven_steps);
-  group.mean_fuel_ml = ratio(sums.fuel_ml, sums.left);
-  group.mean_fuel_standing_ml = ratio(sums.fuel_standing_ml, sums.left);
-  return group;
-}
-
-FuelTotals RunMeasures::burnt(bool equipped) const {
-  FuelTotals fuel = equipped ? equipped_.burnt : unequipped_.burnt;
-  for (const Records& records : records_) {
-    for (const Record& seen : records.cars) {
-      if (seen.car.equipped == equipped && !seen.left) fuel += seen.fuel;
-    }
-  }
-  return fuel;
-}
-
-RunFigures RunMeasures::figures() const {
-  RunFigures figures = totals_;
-  Sums all = equipped_;
-  all += unequipped_;
-  figures.all = figures_of(all);
-  figures.equipped = figures_of(equipped_);
-  figures.unequipped = figures_of(unequipped_);
-  figures.equipped.fuel = burnt(true);
-  figures.unequipped.fuel = burnt(false);
-  figures.all.fuel = figures.equipped.fuel;
-  figures.all.fuel += figures.unequipped.fuel;
-  return figures;
-}
-
-GroupNow RunMeasures::now_of(const Sums& sums) const {
-  GroupNow group;
-  group.arrived = sums.arrived;
-  group.waiting = sums.waiting;
-  group.in_system = sums.entered - sums.left_ever;
-  group.left = sums.left_ever;
-  group.standing = sums.standing;
-  group.stops = sums.stops_ever;
-  group.standing_steps = sums.standing_steps_ever;
-  const Step counted = std::min<Step>(step_, static_cast<Step>(equipped_crossings_.size()));
-  if (counted > 0) {
-    group.throughput_veh_per_h = static_cast<double>(sums.crossed_last_minute) * kSecondsPerHour / time_s(counted);
-  }
-  group.stops_per_vehicle = ratio(static_cast<double>(sums.stops_ever), sums.entered);
-  group.mean_stop_time_s =
-      ratio(static_cast<double>(sums.standing_steps_ever) / static_cast<double>(kStepsPerSecond), sums.entered);
-  group.mean_delay_s = ratio(sums.delay_ever_s, sums.left_ever);
-  return group;
-}
-
-RunNow RunMeasures::now() const {
-  Sums all = equipped_;
-  all += unequipped_;
-  return {.all = now_of(all), .equipped = now_of(equipped_), .unequipped = now_of(unequipped_)};
-}
-
-CarNow RunMeasures::now(std::uint32_t vehicle) const {
-  const Records& records = records_[vehicle % kApproaches];
-  const std::uint32_t n = vehicle / kApproaches;
-  LUKOU_EXPECT(n >= records.first && n - records.first < records.cars.size());
-  const Record& seen = records.cars[n - records.first];
-  return {.standing_steps = seen.car.standing_steps, .newest_advice = seen.newest_advice};
 }
 
 }  // namespace lukou

@@ -11,6 +11,8 @@
 #include "common/intersection/geometry.hpp"
 #include "common/intersection/lane.hpp"
 #include "common/intersection/signal_plan.hpp"
+#include "common/measures/entry_queue.hpp"
+#include "common/measures/free_motion.hpp"
 #include "common/measures/fuel.hpp"
 #include "common/measures/rows.hpp"
 #include "common/measures/stop_cause.hpp"
@@ -57,6 +59,11 @@ struct GroupFigures {
   FuelTotals fuel;                                   ///< of all cars since step 0
   std::optional<double> mean_fuel_ml;                ///< as mean_delay_s, and the next
   std::optional<double> mean_fuel_standing_ml;
+  // Over every car that arrived at or after the end of the warm-up, also those still on the road or before the
+  // entrance.
+  std::uint64_t cars_arrived = 0;
+  std::optional<double> mean_delay_all_s;   ///< from the arrival on: waiting before the entrance counts
+  std::optional<double> mean_entry_wait_s;  ///< of that before the entrance
 };
 
 /// A group of cars as it stands now. Everything counts from step 0 on, warm-up included; stops and standing before the
@@ -136,12 +143,15 @@ class RunMeasures {
     FinishedCar car;
     std::optional<FinishedStop> stop;  ///< that lasts
     FuelTotals fuel;
-    double free_time_s = 0.0;
+    FreeDriver driver;
+    double free_time_s = 0.0;  ///< of the whole way
+    double waited_s = 0.0;     ///< before the entrance
     double position_m = 0.0;
     Step newest_advice = -1;
     bool armed = true;  ///< would count a stop
     bool overlapping = false;
-    bool counts = false;  ///< entered after the warm-up
+    bool counts = false;          ///< entered after the warm-up
+    bool arrival_counts = false;  ///< arrived after it
     bool left = false;
   };
   /// The records of an approach: vehicle numbers are dense, so the place follows from the number.
@@ -174,7 +184,8 @@ class RunMeasures {
     std::uint64_t driven_steps = 0;  ///< terms of that sum
     double fuel_ml = 0.0;            ///< of those that left, as the next
     double fuel_standing_ml = 0.0;
-    FuelTotals burnt;  ///< since step 0, by those that left
+    FuelTotals burnt;           ///< since step 0, by those that left
+    DelayTotals after_arrival;  ///< of those that arrived after the warm-up and have left
 
     Sums& operator+=(const Sums& other);
   };
@@ -195,6 +206,8 @@ class RunMeasures {
   void add_fates(const TrafficBatch& batch);
   /// What the cars of a group have burnt since step 0.
   [[nodiscard]] FuelTotals burnt(bool equipped) const;
+  /// What the cars of a group that arrived after the warm-up have lost by now, wherever they are.
+  [[nodiscard]] DelayTotals lost(bool equipped) const;
   [[nodiscard]] GroupFigures figures_of(const Sums& sums) const;
   [[nodiscard]] GroupNow now_of(const Sums& sums) const;
 
@@ -202,6 +215,7 @@ class RunMeasures {
   Step warmup_step_;
   Step step_ = -1;
   std::array<Records, kApproaches> records_;
+  EntryQueue entrance_;
   std::array<LaneTotals, kLanes> lanes_{};
   std::vector<FinishedCar> finished_;
   std::vector<FinishedStop> finished_stops_;

@@ -193,7 +193,7 @@ void append(Frames& frames, const Envelope& envelope, const MapData& message) {
     writer.close(link);
   }
   writer.close(node);
-  wire::finish_frame(frames, envelope, FrameKind::kMap, kHeadBytes + 2 * kPointsBytes);
+  wire::finish_frame(writer, frames, envelope, FrameKind::kMap, kHeadBytes + 2 * kPointsBytes);
 }
 
 Expected<MapData> decode_map(std::span<const std::uint8_t> payload) {

@@ -129,7 +129,7 @@ void append(Frames& frames, const Envelope& envelope, const Coordination& messag
     write_lane(writer, message.node, advice);
     wire_bytes += kLaneBytes;
   }
-  wire::finish_frame(frames, envelope, FrameKind::kRsc, wire_bytes);
+  wire::finish_frame(writer, frames, envelope, FrameKind::kRsc, wire_bytes);
 }
 
 }  // namespace lukou

@@ -196,7 +196,7 @@ void append(Frames& frames, const Envelope& envelope, const RoadsideSafety& mess
     bits += participant_bits({.vehicle_id = participant.vehicle.has_value(), .vehicle_class = true},
                              offset_of(participant.centre));
   }
-  wire::finish_frame(frames, envelope, FrameKind::kRsm, rsm_bytes(bits));
+  wire::finish_frame(writer, frames, envelope, FrameKind::kRsm, rsm_bytes(bits));
 }
 
 Expected<RoadsideSafety> decode_rsm(std::span<const std::uint8_t> payload) {

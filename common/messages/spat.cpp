@@ -140,7 +140,7 @@ void append(Frames& frames, const Envelope& envelope, const Spat& message) {
     bits += kPhaseBits + kStateBits * states.size();
   }
   writer.close(intersection);
-  wire::finish_frame(frames, envelope, FrameKind::kSpat, static_cast<std::uint32_t>((bits + 7) / 8));
+  wire::finish_frame(writer, frames, envelope, FrameKind::kSpat, static_cast<std::uint32_t>((bits + 7) / 8));
 }
 
 Expected<Spat> decode_spat(std::span<const std::uint8_t> payload) {

@@ -1,33 +1,26 @@
 #include "common/messages/wire.hpp"
 
+#include <array>
+#include <cstring>
+
 namespace lukou::wire {
 
-void Writer::fixed64_field(std::uint32_t field, std::uint64_t value) {
-  varint(fixed64_key(field));
-  for (unsigned shift = 0; shift < 64; shift += 8) out_.push_back(static_cast<std::uint8_t>(value >> shift));
+void Writer::close_long(std::size_t begin, std::size_t length) {
+  std::array<std::uint8_t, 10> bytes{};
+  std::size_t count = 0;
+  for (; length >= 0x80U; length >>= 7U) bytes[count++] = static_cast<std::uint8_t>(length | 0x80U);
+  bytes[count++] = static_cast<std::uint8_t>(length);
+  // The message moves back to make room for more than one byte of length.
+  const std::size_t more = count - 1;
+  if (end_ - next_ < kFieldMax) make_room(size());
+  std::memmove(out_.data() + begin + more, out_.data() + begin, size() - begin);
+  std::memcpy(out_.data() + begin - 1, bytes.data(), count);
+  next_ += more;
 }
 
-std::size_t Writer::open(std::uint32_t field) {
-  varint(message_key(field));
-  out_.push_back(0);  // the length: one byte is nearly always enough
-  return out_.size();
-}
-
-void Writer::close(std::size_t begin) {
-  std::size_t length = out_.size() - begin;
-  std::size_t at = begin - 1;
-  while (length >= 0x80U) {
-    out_[at] = static_cast<std::uint8_t>(length | 0x80U);
-    length >>= 7U;
-    ++at;
-    out_.insert(out_.begin() + static_cast<std::ptrdiff_t>(at), 0);
-  }
-  out_[at] = static_cast<std::uint8_t>(length);
-}
-
-bool Reader::varint(std::uint64_t& value) {
-  value = 0;
-  for (unsigned shift = 0; shift < 64 && next_ != end_; shift += 7) {
+bool Reader::rest_of_varint(std::uint64_t& value) {
+  value &= 0x7FU;
+  for (unsigned shift = 7; shift < 64 && next_ != end_; shift += 7) {
     const std::uint8_t byte = *next_++;
     value |= static_cast<std::uint64_t>(byte & 0x7FU) << shift;
     if (byte < 0x80U) return true;
@@ -35,7 +28,7 @@ bool Reader::varint(std::uint64_t& value) {
   return false;
 }
 
-bool Reader::next() {
+bool Reader::next_of_any_kind() {
   if (broken_ || next_ == end_) return false;
   if (!varint(key_) || (key_ >> 3U) == 0) return fail();
   const auto left = static_cast<std::size_t>(end_ - next_);
@@ -146,7 +139,8 @@ void read_size(std::span<const std::uint8_t> bytes, RawSize& size) {
   size.broken = size.broken || reader.broken();
 }
 
-void finish_frame(Frames& frames, const Envelope& envelope, FrameKind kind, std::uint32_t wire_bytes) {
+void finish_frame(Writer& writer, Frames& frames, const Envelope& envelope, FrameKind kind, std::uint32_t wire_bytes) {
+  writer.finish();
   frames.sender.push_back(envelope.sender);
   frames.sequence.push_back(envelope.sequence);
   frames.kind.push_back(static_cast<std::uint8_t>(kind));

@@ -19,12 +19,13 @@
 
 namespace lukou::wire {
 
-/// Appends fields to `out`.
+/// Appends fields to `out`, whose size is right only after finish(): meanwhile it holds room for what comes next.
 class Writer {
  public:
-  explicit Writer(std::vector<std::uint8_t>& out) : out_(out) {}
+  explicit Writer(std::vector<std::uint8_t>& out) : out_(out) { make_room(out.size()); }
 
   void unsigned_field(std::uint32_t field, std::uint64_t value) {
+    if (end_ - next_ < kFieldMax) make_room(size());
     varint(field << 3U);
     varint(value);
   }
@@ -32,21 +33,48 @@ class Writer {
   void signed_field(std::uint32_t field, std::int64_t value) {
     unsigned_field(field, (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63));
   }
-  void fixed64_field(std::uint32_t field, std::uint64_t value);
+  void fixed64_field(std::uint32_t field, std::uint64_t value) {
+    if (end_ - next_ < kFieldMax) make_room(size());
+    varint((field << 3U) | 1U);
+    for (unsigned shift = 0; shift < 64; shift += 8) *next_++ = static_cast<std::uint8_t>(value >> shift);
+  }
   /// Begins a message in a field; returns what `close` needs.
-  [[nodiscard]] std::size_t open(std::uint32_t field);
-  void close(std::size_t begin);
+  [[nodiscard]] std::size_t open(std::uint32_t field) {
+    if (end_ - next_ < kFieldMax) make_room(size());
+    varint((field << 3U) | 2U);
+    *next_++ = 0;  // the length: one byte is nearly always enough
+    return size();
+  }
+  void close(std::size_t begin) {
+    const std::size_t length = size() - begin;
+    if (length >= 0x80U) return close_long(begin, length);
+    out_[begin - 1] = static_cast<std::uint8_t>(length);
+  }
+  /// Cuts `out` to what has been written. Nothing may follow.
+  void finish() { out_.resize(size()); }
 
  private:
+  static constexpr std::ptrdiff_t kFieldMax = 16;  ///< bytes of a field's key and its value
+  static constexpr std::size_t kRoom = 256;
+
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(next_ - out_.data()); }
+  void make_room(std::size_t size) {
+    out_.resize(size + kRoom);
+    next_ = out_.data() + size;
+    end_ = out_.data() + out_.size();
+  }
+  void close_long(std::size_t begin, std::size_t length);
   void varint(std::uint64_t value) {
     while (value >= 0x80U) {
-      out_.push_back(static_cast<std::uint8_t>(value | 0x80U));
+      *next_++ = static_cast<std::uint8_t>(value | 0x80U);
       value >>= 7U;
     }
-    out_.push_back(static_cast<std::uint8_t>(value));
+    *next_++ = static_cast<std::uint8_t>(value);
   }
 
   std::vector<std::uint8_t>& out_;
+  std::uint8_t* next_ = nullptr;
+  std::uint8_t* end_ = nullptr;
 };
 
 /// Walks over the fields of a message. Never reads outside its bytes, whatever they hold.
@@ -55,7 +83,17 @@ class Reader {
   explicit Reader(std::span<const std::uint8_t> bytes) : next_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
   /// Steps to the next field; false at the end, and at the first field that cannot be decoded.
-  bool next();
+  bool next() {
+    // Nearly every field is a small number, or has a key of one byte: the rest is elsewhere.
+    if (end_ - next_ >= 2 && next_[0] < 0x80U && (next_[0] & 7U) == 0 && next_[0] >= 8U && next_[1] < 0x80U &&
+        !broken_) {
+      key_ = next_[0];
+      value_ = next_[1];
+      next_ += 2;
+      return true;
+    }
+    return next_of_any_kind();
+  }
   [[nodiscard]] bool broken() const { return broken_; }
   /// Number and wire type of the field: what `key` gives. A field of another type than expected is an unknown one.
   [[nodiscard]] std::uint64_t field() const { return key_; }
@@ -74,7 +112,13 @@ class Reader {
   [[nodiscard]] std::span<const std::uint8_t> message() const { return message_; }
 
  private:
-  bool varint(std::uint64_t& value);
+  bool next_of_any_kind();
+  bool varint(std::uint64_t& value) {
+    if (next_ == end_) return false;
+    value = *next_++;
+    return value < 0x80U || rest_of_varint(value);
+  }
+  bool rest_of_varint(std::uint64_t& value);
   bool fail() {
     broken_ = true;
     return false;
@@ -86,6 +130,64 @@ class Reader {
   std::uint64_t value_ = 0;
   std::span<const std::uint8_t> message_;
   bool broken_ = false;
+};
+
+/// Takes the fields of a message in the order in which our own writer puts them, several times faster than Reader finds
+/// them in any order. Once a field is not the expected one it says no to all that follows: then Reader decides.
+class InOrder {
+ public:
+  explicit InOrder(std::span<const std::uint8_t> bytes) : next_(bytes.data()), end_(bytes.data() + bytes.size()) {}
+
+  bool unsigned_field(std::uint32_t field, std::int64_t& value) {
+    std::uint64_t bits = 0;
+    if (!key(field << 3U) || !varint(bits)) return false;
+    value = static_cast<std::int64_t>(bits);
+    return true;
+  }
+  bool signed_field(std::uint32_t field, std::int64_t& value) {
+    std::uint64_t bits = 0;
+    if (!key(field << 3U) || !varint(bits)) return false;
+    value = static_cast<std::int64_t>((bits >> 1U) ^ (~(bits & 1U) + 1U));
+    return true;
+  }
+  bool fixed64_field(std::uint32_t field, std::uint64_t& value) {
+    if (!key((field << 3U) | 1U) || end_ - next_ < 8) return false;
+    value = 0;
+    for (unsigned i = 0; i < 8; ++i) value |= static_cast<std::uint64_t>(next_[i]) << (8 * i);
+    next_ += 8;
+    return true;
+  }
+  /// Enters a message of less than 128 bytes.
+  bool open(std::uint32_t field) {
+    if (!key((field << 3U) | 2U) || next_ == end_ || *next_ >= 0x80U) return false;
+    const std::ptrdiff_t length = *next_++;
+    inner_end_ = next_ + length;
+    return length <= end_ - next_;
+  }
+  /// Whether the message has been read to its end.
+  [[nodiscard]] bool close() const { return next_ == inner_end_; }
+  [[nodiscard]] bool at_end() const { return next_ == end_; }
+
+ private:
+  /// A key of one byte: a field below 16.
+  bool key(std::uint32_t expected) {
+    if (next_ == end_ || *next_ != expected) return false;
+    ++next_;
+    return true;
+  }
+  /// Of at most five bytes.
+  bool varint(std::uint64_t& bits) {
+    for (unsigned shift = 0; shift < 35 && next_ != end_; shift += 7) {
+      const std::uint8_t byte = *next_++;
+      bits |= static_cast<std::uint64_t>(byte & 0x7FU) << shift;
+      if (byte < 0x80U) return true;
+    }
+    return false;
+  }
+
+  const std::uint8_t* next_;
+  const std::uint8_t* end_;
+  const std::uint8_t* inner_end_ = nullptr;
 };
 
 constexpr std::uint64_t varint_key(std::uint32_t field) { return std::uint64_t{field} << 3U; }
@@ -194,7 +296,7 @@ struct RawSize {
 void write_size(Writer& writer, std::uint32_t field, double width_m, double length_m);
 void read_size(std::span<const std::uint8_t> bytes, RawSize& size);
 
-/// Closes a frame whose payload has been appended.
-void finish_frame(Frames& frames, const Envelope& envelope, FrameKind kind, std::uint32_t wire_bytes);
+/// Closes a frame whose payload `writer` has appended.
+void finish_frame(Writer& writer, Frames& frames, const Envelope& envelope, FrameKind kind, std::uint32_t wire_bytes);
 
 }  // namespace lukou::wire

@@ -16,6 +16,7 @@ enum ExitCode : int {
   kExitAborted = 3,        ///< a participant was lost or stalled
   kExitAnomaly = 4,        ///< collision or overflow: the simulation itself ended the run
   kExitIo = 5,             ///< input or output failed
+  kExitFailedRuns = 6,     ///< a sweep with failed runs
   kExitInterrupted = 130,  ///< Ctrl-C
   kExitTerminated = 143,   ///< SIGTERM
 };

@@ -204,8 +204,8 @@ Expected<std::vector<FileEntry>> result_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, code)) {
     const std::string name = entry.path().filename().string();
     const bool of_the_wall_clock = name == "timing.json" || name == "operator.log";
-    if (!entry.is_regular_file(ignored) || name == kManifest || of_the_wall_clock || name.ends_with(kUnfinished))
-      continue;
+    const bool no_result = of_the_wall_clock || name == kManifest || name == kReportPage || name.ends_with(kUnfinished);
+    if (no_result || !entry.is_regular_file(ignored)) continue;
     const auto hash = file_sha256(entry.path());
     if (!hash) return hash.error();
     FileEntry file{name, hash.value(), std::nullopt};

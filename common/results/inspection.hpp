@@ -38,7 +38,7 @@ Expected<Inspection> inspect(const std::filesystem::path& folder);
 Expected<Manifest> repair(const std::filesystem::path& folder, const Manifest& facts);
 
 /// Name, hash and rows of every result file in the folder, sorted by name. The manifest, files about the wall clock
-/// (timing.json, operator.log) and unfinished files do not count.
+/// (timing.json, operator.log), report.html and unfinished files do not count.
 Expected<std::vector<FileEntry>> result_files(const std::filesystem::path& folder);
 
 }  // namespace lukou::results

@@ -12,6 +12,8 @@
 namespace lukou::results {
 
 inline constexpr const char* kManifest = "manifest.json";
+/// What `lukou report` makes of a result folder, inside it: no part of the result.
+inline constexpr const char* kReportPage = "report.html";
 
 /// A file of a result folder.
 struct FileEntry {
@@ -31,7 +33,7 @@ struct Manifest {
   Step complete_to_step = 0;     ///< every table is whole up to and with this step
   std::string ended_by;          ///< done, stopped, interrupted, anomaly:<what>, lost:<role>, stalled:<role> or disk
   std::string culprit;           ///< for people; empty if nobody is to blame
-  std::vector<FileEntry> files;  ///< sorted by name; not the manifest, timing.json and operator.log
+  std::vector<FileEntry> files;  ///< sorted by name; not the manifest, timing.json, operator.log and report.html
 
   friend bool operator==(const Manifest&, const Manifest&) = default;
 };

@@ -70,7 +70,10 @@ RunLogReader::RunLogReader(McapReader file, Facts facts)
 
 // Views into the other's chunk would dangle: the chunk is read again.
 RunLogReader::RunLogReader(RunLogReader&& other) noexcept
-    : file_(std::move(other.file_)), facts_(std::move(other.facts_)), decoder_(std::move(other.decoder_)) {
+    : file_(std::move(other.file_)),
+      facts_(std::move(other.facts_)),
+      decoder_(std::move(other.decoder_)),
+      channels_(other.channels_) {
   seek(other.next_step_);
 }
 
@@ -78,6 +81,7 @@ RunLogReader& RunLogReader::operator=(RunLogReader&& other) noexcept {
   file_ = std::move(other.file_);
   facts_ = std::move(other.facts_);
   decoder_ = std::move(other.decoder_);
+  channels_ = other.channels_;
   seek(other.next_step_);
   return *this;
 }
@@ -87,6 +91,11 @@ RunLogReader::~RunLogReader() = default;
 Step RunLogReader::last_step() const {
   const auto& chunks = file_.index().chunks;
   return chunks.empty() ? -1 : step_at(chunks.back().last_ns);
+}
+
+void RunLogReader::read_only(std::initializer_list<Channel> channels) {
+  channels_ = 0;
+  for (const Channel channel : channels) channels_ |= 1U << static_cast<unsigned>(channel);
 }
 
 Expected<std::vector<Directive>> RunLogReader::directives() const {
@@ -157,6 +166,7 @@ Expected<LoggedStep*> RunLogReader::next() {
 }
 
 Expected<Done> RunLogReader::take(const McapReader::Message& message) {
+  if (message.channel < 32 && (channels_ & (1U << message.channel)) == 0) return Done{};
   const auto parsed = [&](auto& into) {
     return into.ParseFromArray(message.data.data(), static_cast<int>(message.data.size()));
   };

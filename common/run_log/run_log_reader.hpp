@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "common/bus/batches.hpp"
 #include "common/core/directive.hpp"
 #include "common/core/expected.hpp"
+#include "common/run_log/channels.hpp"
 #include "common/run_log/mcap_reader.hpp"
 #include "common/run_log/run_log.hpp"
 
@@ -38,6 +40,8 @@ class RunLogReader {
   /// The last step that is there; -1: none.
   [[nodiscard]] Step last_step() const;
 
+  /// From now on only these channels are decoded; what the others hold is missing from the steps.
+  void read_only(std::initializer_list<Channel> channels);
   /// The operator's changes, all of the run: only chunks that hold some are read.
   Expected<std::vector<Directive>> directives() const;
 
@@ -62,6 +66,7 @@ class RunLogReader {
   std::optional<McapReader::Message> message_;  ///< taken off `rest_`, of a later step than the last one given
   Step next_step_ = 0;                          ///< behind the last one given
   Step from_ = 0;                               ///< steps before are passed over
+  std::uint32_t channels_ = ~0U;                ///< that are decoded: bit n = channel n
   LoggedStep step_;
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "common/scenario/file.hpp"
 #include "common/scenario/scenario.hpp"
 #include "common/scenario/wording.hpp"
 

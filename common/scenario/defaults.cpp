@@ -32,7 +32,9 @@ bool is_created(const Message& message, const FieldDescriptor* field) {
          message.GetReflection()->GetString(message, Rsu::descriptor()->FindFieldByName("algorithm")) == field->name();
 }
 
-void fill(Message& message) {
+}  // namespace
+
+void fill_fallbacks(Message& message) {
   const Descriptor* type = message.GetDescriptor();
   const auto* reflection = message.GetReflection();
   for (int i = 0; i < type->field_count(); ++i) {
@@ -40,10 +42,11 @@ void fill(Message& message) {
     const bool is_message = field->message_type() != nullptr;
     if (field->is_repeated()) {
       for (int n = 0; is_message && n < reflection->FieldSize(message, field); ++n) {
-        fill(*reflection->MutableRepeatedMessage(&message, field, n));
+        fill_fallbacks(*reflection->MutableRepeatedMessage(&message, field, n));
       }
     } else if (is_message) {
-      if (has(message, field) || is_created(message, field)) fill(*reflection->MutableMessage(&message, field));
+      if (has(message, field) || is_created(message, field))
+        fill_fallbacks(*reflection->MutableMessage(&message, field));
     } else if (!has(message, field) && has_fallback(field) && !rule_of(field).kept_absent() &&
                !is_replaced(message, field)) {
       LUKOU_EXPECT(parse_value(rule_of(field).fallback(), field, message).empty());
@@ -51,12 +54,10 @@ void fill(Message& message) {
   }
 }
 
-}  // namespace
-
 void fill_defaults(Scenario& scenario) {
   if (scenario.rsus_size() == 0) scenario.add_rsus();
   if (scenario.has_radio()) apply_radio_preset(*scenario.mutable_radio());
-  fill(scenario);
+  fill_fallbacks(scenario);
 }
 
 }  // namespace lukou::scenario

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "common/scenario/file.hpp"
+#include "common/scenario/scenario.hpp"
 #include "directives.pb.h"
 
 namespace lukou::scenario {

@@ -26,9 +26,11 @@ std::string type_text(const FieldDescriptor* field) {
 
 }  // namespace
 
-std::vector<FieldDoc> field_docs() {
+std::vector<FieldDoc> field_docs() { return field_docs(*Scenario::descriptor()); }
+
+std::vector<FieldDoc> field_docs(const google::protobuf::Descriptor& type) {
   std::vector<FieldDoc> docs;
-  for_each_field(Scenario::descriptor(), "", [&](const std::string& path, const FieldDescriptor* field) {
+  for_each_field(&type, "", [&](const std::string& path, const FieldDescriptor* field) {
     // A message without a rule only groups its fields.
     if (field->message_type() != nullptr && !field->options().HasExtension(rule)) return;
     const FieldRule& said = rule_of(field);

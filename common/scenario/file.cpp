@@ -1,5 +1,3 @@
-#include "common/scenario/file.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
@@ -15,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Largest file that is read [bytes]; far above any scenario or trace.
+constexpr std::uintmax_t kFileSizeMax = 256U << 20U;
 constexpr const char* kExtension = ".textproto";
 
 }  // namespace
@@ -37,21 +37,24 @@ Expected<std::string> read_file(const fs::path& file) {
   return content;
 }
 
-std::vector<fs::path> shipped_directories() {
+std::vector<fs::path> shipped_directories(Shipped kind) {
   std::vector<fs::path> directories;
   if (const char* set = std::getenv("LUKOU_SCENARIOS"); set != nullptr && *set != '\0') directories.emplace_back(set);
   std::error_code code;
   const fs::path program = fs::read_symlink("/proc/self/exe", code);
-  if (code) return directories;
-  const fs::path home = program.parent_path();
-  directories.push_back((home / "../../launch_scripts/scenarios").lexically_normal());
-  directories.push_back((home / "../share/lukou/scenarios").lexically_normal());
+  if (!code) {
+    const fs::path home = program.parent_path();
+    directories.push_back((home / "../../launch_scripts/scenarios").lexically_normal());
+    directories.push_back((home / "../share/lukou/scenarios").lexically_normal());
+  }
+  if (kind == Shipped::kScenario) return directories;
+  for (fs::path& directory : directories) directory = (directory / "../studies").lexically_normal();
   return directories;
 }
 
-std::vector<std::string> shipped_names() {
+std::vector<std::string> shipped_names(Shipped kind) {
   std::vector<std::string> names;
-  for (const fs::path& directory : shipped_directories()) {
+  for (const fs::path& directory : shipped_directories(kind)) {
     std::error_code code;
     for (const auto& entry : fs::directory_iterator(directory, code)) {
       if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
@@ -62,17 +65,18 @@ std::vector<std::string> shipped_names() {
   return names;
 }
 
-Expected<fs::path> find_scenario(const std::string& path_or_name) {
+Expected<fs::path> find_file(const std::string& path_or_name, Shipped kind) {
   std::error_code code;
   if (fs::is_regular_file(path_or_name, code)) return fs::path(path_or_name);
   const bool bare = path_or_name.find('/') == std::string::npos && !path_or_name.ends_with(kExtension);
   if (!bare) return Error{path_or_name, "there is no such file"};
-  for (const fs::path& directory : shipped_directories()) {
+  for (const fs::path& directory : shipped_directories(kind)) {
     const fs::path file = directory / (path_or_name + kExtension);
     if (fs::is_regular_file(file, code)) return file;
   }
-  const auto names = shipped_names();
-  return Error{path_or_name, "is neither a file nor a shipped scenario" +
+  const auto names = shipped_names(kind);
+  return Error{path_or_name, std::string("is neither a file nor a shipped ") +
+                                 (kind == Shipped::kScenario ? "scenario" : "study") +
                                  (names.empty() ? std::string() : suggestion(path_or_name, names))};
 }
 

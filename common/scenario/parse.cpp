@@ -34,10 +34,10 @@ std::vector<std::string> quoted(std::string_view message) {
 }
 
 /// "signals.preset takes A, B; radio.preset takes C": the parser names a field, not its message.
-std::string enums_of_field(const std::string& field_name) {
+std::string enums_of_field(const Descriptor* root, const std::string& field_name) {
   std::vector<std::string> takes;
   std::string last_type;
-  for_each_field(Scenario::descriptor(), "", [&](const std::string& path, const FieldDescriptor* field) {
+  for_each_field(root, "", [&](const std::string& path, const FieldDescriptor* field) {
     if (field->name() != field_name || field->enum_type() == nullptr) return;
     if (field->containing_type()->full_name() == last_type) return;
     last_type = field->containing_type()->full_name();
@@ -61,8 +61,8 @@ void move_to_word(ParseIssue& issue, std::string_view text, const std::string& w
   issue.column = static_cast<int>(line_begin == std::string_view::npos ? at + 1 : at - line_begin);
 }
 
-/// Puts a message of the parser into our words; one that is not known stays as it is.
-std::string reworded(const std::string& message) {
+/// Puts a message of the parser, about a text that is a `root`, into our words; one that is not known stays as it is.
+std::string reworded(const std::string& message, const Descriptor* root) {
   const std::vector<std::string> words = quoted(message);
   if (message.find("has no field named") != std::string::npos && words.size() == 2) {
     const Descriptor* type = DescriptorPool::generated_pool()->FindMessageTypeByName(words[0]);
@@ -71,7 +71,7 @@ std::string reworded(const std::string& message) {
     }
   }
   if (message.rfind("Unknown enumeration value of", 0) == 0 && words.size() == 2) {
-    return "`" + words[0] + "` is no value of " + words[1] + ": " + enums_of_field(words[1]);
+    return "`" + words[0] + "` is no value of " + words[1] + ": " + enums_of_field(root, words[1]);
   }
   if (message.rfind("Non-repeated field", 0) == 0 && words.size() == 1) {
     return "`" + words[0] + "` stands here a second time; it may be given once";
@@ -95,10 +95,10 @@ bool is_about_a_word(const std::string& message) {
 
 class Collector final : public google::protobuf::io::ErrorCollector {
  public:
-  explicit Collector(std::string_view text) : text_(text) {}
+  Collector(std::string_view text, const Descriptor* root) : text_(text), root_(root) {}
 
   void AddError(int line, int column, const std::string& message) override {
-    ParseIssue issue{line + 1, column + 1, reworded(message)};
+    ParseIssue issue{line + 1, column + 1, reworded(message, root_)};
     const std::vector<std::string> words = quoted(message);
     if (line >= 0 && is_about_a_word(message) && !words.empty()) {
       const bool enumeration = message.rfind("Unknown enumeration", 0) == 0;
@@ -113,6 +113,7 @@ class Collector final : public google::protobuf::io::ErrorCollector {
 
  private:
   std::string_view text_;
+  const Descriptor* root_;
 };
 
 TextFormat::Parser strict_parser(Collector& collector) {
@@ -125,17 +126,17 @@ TextFormat::Parser strict_parser(Collector& collector) {
 
 }  // namespace
 
-std::vector<ParseIssue> parse(const std::string& text, Scenario& scenario, TextFormat::ParseInfoTree& places) {
-  Collector collector(text);
+std::vector<ParseIssue> parse(const std::string& text, Message& message, TextFormat::ParseInfoTree& places) {
+  Collector collector(text, message.GetDescriptor());
   TextFormat::Parser parser = strict_parser(collector);
   parser.WriteLocationsTo(&places);
-  const bool parsed = parser.ParseFromString(text, &scenario);
+  const bool parsed = parser.ParseFromString(text, &message);
   if (!parsed && collector.issues.empty()) collector.issues.push_back({0, 0, "is not Protobuf text format"});
   return collector.issues;
 }
 
 std::vector<ParseIssue> parse_value(const std::string& value, const FieldDescriptor* field, Message& message) {
-  Collector collector(value);
+  Collector collector(value, Scenario::descriptor());
   TextFormat::Parser parser = strict_parser(collector);
   const bool parsed = parser.ParseFieldValueFromString(value, field, &message);
   if (!parsed && collector.issues.empty()) collector.issues.push_back({0, 0, "there is more than one value"});

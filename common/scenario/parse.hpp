@@ -18,9 +18,9 @@ struct ParseIssue {
   std::string what;
 };
 
-/// Parses `text` into `scenario` and notes in `places` where each field stands. Empty if all is well; every unknown
+/// Parses `text` into `message` and notes in `places` where each field stands. Empty if all is well; every unknown
 /// field is reported, but only the first error of syntax.
-std::vector<ParseIssue> parse(const std::string& text, Scenario& scenario,
+std::vector<ParseIssue> parse(const std::string& text, google::protobuf::Message& message,
                               google::protobuf::TextFormat::ParseInfoTree& places);
 
 /// Parses one value, in text format, into a field: sets a singular field, appends to a repeated one.

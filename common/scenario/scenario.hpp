@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +12,10 @@
 #include "common/core/expected.hpp"
 #include "common/intersection/lane.hpp"
 #include "common/intersection/signal_plan.hpp"
+
+namespace google::protobuf {
+class Descriptor;
+}
 
 namespace lukou::scenario {
 
@@ -44,11 +49,25 @@ Expected<Resolved> load(const std::string& path_or_name, const std::vector<std::
 Expected<Resolved> load_text(const std::string& text, const std::string& origin, const std::filesystem::path& directory,
                              const std::vector<std::string>& sets = {});
 
-/// Where shipped scenarios are looked for, in order: LUKOU_SCENARIOS, the source tree of the running program, the
-/// prefix it is installed under.
-std::vector<std::filesystem::path> shipped_directories();
-/// Names that load() knows without a path, sorted.
-std::vector<std::string> shipped_names();
+/// A setting as after --set, and what errors call it.
+struct LabelledSet {
+  std::string set;    ///< "path=value"
+  std::string label;  ///< "study.textproto:12:5: run.seed=x"
+};
+Expected<Resolved> load_text(const std::string& text, const std::string& origin, const std::filesystem::path& directory,
+                             const std::vector<LabelledSet>& sets);
+
+/// What ships with the program and is known by its bare name.
+enum class Shipped : std::uint8_t { kScenario, kStudy };
+/// Where scenarios are looked for, in order: LUKOU_SCENARIOS, the source tree of the running program, the prefix it is
+/// installed under; studies in the folder `studies` beside each of these.
+std::vector<std::filesystem::path> shipped_directories(Shipped kind = Shipped::kScenario);
+/// The bare names, sorted.
+std::vector<std::string> shipped_names(Shipped kind = Shipped::kScenario);
+/// The file that a user means: a path, or a bare name.
+Expected<std::filesystem::path> find_file(const std::string& path_or_name, Shipped kind);
+/// The whole of a regular file. The error has no `where`.
+Expected<std::string> read_file(const std::filesystem::path& file);
 
 /// An operator's change while a run goes on, "path=value". Only fields marked live may change; the error lists them.
 /// A preset replaces a plan and a plan a preset. On error the scenario stays as it was.
@@ -95,6 +114,8 @@ std::vector<std::string> warnings(const Resolved& scenario);
 /// What each roadside sensor watches and how well, one a line; begins with its path.
 std::vector<std::string> sensor_lines(const Resolved& scenario);
 
+/// Cars that a lane lets go in an hour of green (study of the model, 10: headway 1.997 s).
+inline constexpr double kSaturationFlow_veh_per_h = 1803.0;
 /// Capacity of an approach under a plan [veh/h]: the flow at which its first lane is saturated.
 /// `shares` are the relative weights of the left, centre and right lane, not all 0.
 double capacity_veh_per_h(const lukou::SignalPlan& plan, Approach approach,
@@ -113,5 +134,7 @@ struct FieldDoc {
   bool on_step_grid = false;  ///< a multiple of 0.1 s
 };
 std::vector<FieldDoc> field_docs();
+/// The same of another message type whose fields have rules.
+std::vector<FieldDoc> field_docs(const google::protobuf::Descriptor& type);
 
 }  // namespace lukou::scenario

@@ -12,9 +12,6 @@
 namespace lukou::scenario {
 namespace {
 
-/// Cars that a lane lets go in an hour of green (study of the model, 10: headway 1.997 s).
-constexpr double kSaturationFlow_veh_per_h = 1803.0;
-
 /// The largest flow that a demand reaches [veh/h]; of a trace, the mean over the run.
 double peak_flow_veh_per_h(const Scenario& scenario, Approach approach) {
   const Demand& demand = demand_of(scenario, approach);

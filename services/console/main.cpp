@@ -1,3 +1,5 @@
+#include <google/protobuf/stubs/logging.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -223,6 +225,8 @@ int run(int argc, char** argv) {
     return process::report_start({"--token", "must be 16 to 200 letters, digits, `-` or `_`"}, process::kExitUsage);
   }
   process::catch_stop_signals();
+  // Whoever talks nonsense is let go; that needs no line for each.
+  google::protobuf::SetLogHandler(nullptr);
   return Console(options).run();
 }
 

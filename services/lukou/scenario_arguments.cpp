@@ -90,18 +90,28 @@ Expected<scenario::Resolved> load(const ScenarioArguments& arguments) {
     scenario = scenario::load(arguments.scenario, sets);
     if (!scenario) return scenario;
   }
-  for (std::uint32_t rsu = 0; rsu < scenario::protocol(scenario.value()).rsus; ++rsu) {
-    const auto config = rsu_config(scenario.value().message(), rsu);
+  if (auto known = check_algorithms(scenario.value()); !known) return known.error();
+  return scenario;
+}
+
+Expected<Done> check_algorithms(const scenario::Resolved& scenario) {
+  for (std::uint32_t rsu = 0; rsu < scenario::protocol(scenario).rsus; ++rsu) {
+    const auto config = rsu_config(scenario.message(), rsu);
     if (!config) return config.error();
     const auto algorithm = make_algorithm(config.value().algorithm, config.value().parameters);
     if (!algorithm) return Error{"rsus[" + std::to_string(rsu) + "].algorithm", algorithm.error().what};
   }
-  return scenario;
+  return Done{};
 }
 
 int report_errors(const Error& error) {
   std::fprintf(stderr, "%s\n", error.text().c_str());
   return process::kExitUsage;
+}
+
+int report_output_error(const Error& error) {
+  std::fprintf(stderr, "%s\n", error.text().c_str());
+  return process::kExitIo;
 }
 
 }  // namespace lukou

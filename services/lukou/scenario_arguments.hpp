@@ -29,7 +29,12 @@ void add_scenario_arguments(CLI::App& verb, ScenarioArguments& arguments);
 /// is added if its number is the next one.
 Expected<scenario::Resolved> load(const ScenarioArguments& arguments);
 
+/// Whether there are the algorithms that the RSUs are to run, and their parameters are good.
+Expected<Done> check_algorithms(const scenario::Resolved& scenario);
+
 /// Prints the errors, one a line, and returns the exit code for a usage or scenario error.
 int report_errors(const Error& error);
+/// The same for output that could not be written.
+int report_output_error(const Error& error);
 
 }  // namespace lukou

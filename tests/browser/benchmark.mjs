@@ -1,5 +1,5 @@
 // What the page costs and how quick it is. Prints figures; judges nothing.
-//   node tests/browser/benchmark.mjs [--minutes N]     N minutes of two viewers at 100x for the memory (default 0: left out)
+//   node tests/browser/benchmark.mjs [--minutes N]     with N: only the memory, over N minutes of two viewers at 100x
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { gzipSync } from 'node:zlib';
@@ -87,6 +87,15 @@ async function frames({ page, heard }, view) {
   line('   pace meanwhile, asked 1', heard.status.paceAchieved.toFixed(2));
 }
 
+/** Growth of values taken once a minute, by least squares [units per hour]. */
+function slopePerHour(values) {
+  const mean = (numbers) => numbers.reduce((sum, n) => sum + n, 0) / numbers.length;
+  const minute = values.map((_, i) => i - (values.length - 1) / 2);
+  const middle = mean(values);
+  return (60 * mean(minute.map((t, i) => t * (values[i] - middle)))) / mean(minute.map((t) => t * t));
+}
+
+/** Memory of the server and of the scripts of two pages, minute by minute; the first ten fill the stores. */
 async function memory(browser, run) {
   const server = memberPid(run, 'lukou-console');
   const rss = () => Number(readFileSync(`/proc/${server}/status`, 'utf8').match(/VmRSS:\s+(\d+)/)[1]) / 1000;
@@ -99,32 +108,55 @@ async function memory(browser, run) {
     return (usedSize + backingStorageSize) / 1e6;
   };
   run.ctl('pace', '100');
+  const settled = [[], [], []];
+  console.log('minutes at 100x: server, one page, the other [MB]; growth since minute 10 [MB/h]; pace');
   for (let minute = 0; minute <= minutes; ++minute) {
-    line(
-      `memory after ${minute} min at 100x: server, page [MB]`,
-      `${rss().toFixed(1)}, ${(await heap(viewers[0])).toFixed(1)}`,
+    if (minute > 0) await viewers[0].page.waitForTimeout(60_000);
+    const now = [rss(), await heap(viewers[0]), await heap(viewers[1])];
+    if (minute >= 10) now.forEach((value, i) => settled[i].push(value));
+    const growth = minute > 12 ? settled.map((values) => slopePerHour(values).toFixed(2)).join(', ') : '-';
+    const pace = viewers[0].heard.status.paceAchieved.toFixed(0);
+    console.log(
+      `${String(minute).padStart(3)}   ${now.map((mb) => mb.toFixed(1)).join(', ')}   ${growth}   ${pace}x, step ${viewers[0].heard.picture.step}`,
     );
-    if (minute < minutes) await viewers[0].page.waitForTimeout(60_000);
+  }
+}
+
+/** Size, first picture, echo and frames. 2000 m of approach hold about 300 cars at 1800 veh/h each. */
+async function quickness(browser) {
+  const run = await startRun(['--pace', 'max', '--duration', '20000', '--set', 'traffic.approach_length_m=2000']);
+  try {
+    const viewer = await openPage(browser, run.url);
+    await until(async () => (await stepOf(viewer.page)) > 4000, '400 s simulated', 120_000);
+    run.ctl('pace', '1');
+    await until(() => viewer.heard.status.paceAchieved < 1.5, 'real time');
+    await firstPicture(browser, run.url);
+    await echo(viewer);
+    await frames(viewer, 'Last 50 m');
+    await frames(viewer, 'Whole approach');
+    await viewer.close();
+  } finally {
+    await run.end();
+  }
+}
+
+async function longRun(browser) {
+  const run = await startRun(['--pace', '100', '--duration', String(6000 * (minutes + 2))]);
+  try {
+    await memory(browser, run);
+  } finally {
+    await run.end();
   }
 }
 
 const browser = await launch();
-pageSize();
-// Long enough for the minutes at 100x. 2000 m of approach hold about 300 cars at 1800 veh/h each.
-const duration = String(20_000 + 6000 * (minutes + 2));
-const run = await startRun(['--pace', 'max', '--duration', duration, '--set', 'traffic.approach_length_m=2000']);
 try {
-  const viewer = await openPage(browser, run.url);
-  await until(async () => (await stepOf(viewer.page)) > 4000, '400 s simulated', 120_000);
-  run.ctl('pace', '1');
-  await until(() => viewer.heard.status.paceAchieved < 1.5, 'real time');
-  await firstPicture(browser, run.url);
-  await echo(viewer);
-  await frames(viewer, 'Last 50 m');
-  await frames(viewer, 'Whole approach');
-  await viewer.close();
-  if (minutes > 0) await memory(browser, run);
+  if (minutes > 0) {
+    await longRun(browser);
+  } else {
+    pageSize();
+    await quickness(browser);
+  }
 } finally {
   await browser.close();
-  await run.end();
 }

@@ -40,6 +40,26 @@ export function carsInSight(hello, picture, box, backM) {
   return cars;
 }
 
+/** Where a car's message to the roadside is drawn: right of its middle. With how much of the road around it is its own. */
+export function uplinkMarks(hello, picture, box) {
+  const { at, scale } = screen(hello, box);
+  const half = Math.max(0.75, 3.2 / scale);
+  const rightM = hello.vehicleWidthM / 2 + Math.max(0.12, 0.8 / scale) + 0.5 * half;
+  const marks = [];
+  picture.vehicle.forEach((vehicle, i) => {
+    const lane = hello.lanes[picture.lane[i]];
+    const middle = picture.positionM[i] - hello.vehicleLengthM / 2;
+    // Straight before the line alone: there is nobody on its right but in a lane of its own.
+    if (middle > lane.stopLineM - 6) return;
+    const [a, b] = [placeOn(lane, middle - 0.1), placeOn(lane, middle + 0.1)];
+    const ahead = { x: (b.x - a.x) / 0.2, y: (b.y - a.y) / 0.2 };
+    const spot = at({ x: (a.x + b.x) / 2 + ahead.y * rightM, y: (a.y + b.y) / 2 - ahead.x * rightM });
+    const inside = spot.x > 12 && spot.y > 12 && spot.x < box.width - 12 && spot.y < box.height - 12;
+    if (inside) marks.push({ vehicle, fate: picture.uplink[i], spot });
+  });
+  return marks;
+}
+
 /** The place of a lane's stop line. */
 export function stopLine(hello, lane, box) {
   return screen(hello, box).at(placeOn(hello.lanes[lane], hello.lanes[lane].stopLineM));
@@ -72,7 +92,10 @@ export function coloursAt(page, places, counted = []) {
 /** Colours of the light theme. */
 export const EQUIPPED = [0x1f, 0x5f, 0xbf];
 export const UNEQUIPPED = [0xe2, 0x56, 0x2b];
+export const ADVICE = [0x0b, 0x8f, 0x8a];
+export const LOST = [0x8a, 0x1f, 0xa8];
 export const RED = [0xf0, 0x45, 0x3a];
+export const YELLOW = [0xf5, 0xb9, 0x21];
 export const GREEN = [0x35, 0xc4, 0x6f];
 
 export const near = (colour, wanted) => wanted.every((c, i) => Math.abs(colour[i] - c) <= 12) && colour[3] > 200;

@@ -157,19 +157,35 @@ export async function openPage(browser, url, options = {}) {
   return { page, errors, heard, close: () => context.close() };
 }
 
-let schema;
-function toPage() {
-  if (schema === undefined) {
+let registry;
+/** A message of the contract between server and page. */
+function schemaOf(name) {
+  if (registry === undefined) {
     const folder = mkdtempSync(join(tmpdir(), 'lukou-proto-'));
     const file = join(folder, 'console.binpb');
     execFileSync('protoc', [`--descriptor_set_out=${file}`, `-I${join(root, 'idl')}`, 'console.proto']);
     const { createFileRegistry, fromBinary } = require('@bufbuild/protobuf');
     const { FileDescriptorSetSchema } = require('@bufbuild/protobuf/wkt');
     const set = fromBinary(FileDescriptorSetSchema, require('node:fs').readFileSync(file));
-    schema = createFileRegistry(set).getMessage('lukou.console.ToPage');
+    registry = createFileRegistry(set);
     rmSync(folder, { recursive: true });
   }
-  return schema;
+  return registry.getMessage(`lukou.console.${name}`);
+}
+
+/** A message to the page as it goes over the wire: `encoded('picture', { ... })`. */
+export function encoded(kind, value) {
+  const { create, toBinary } = require('@bufbuild/protobuf');
+  const schema = schemaOf('ToPage');
+  const inner = schema.fields.find((field) => field.localName === kind).message;
+  const what = { case: kind, value: create(inner, value) };
+  return Buffer.from(toBinary(schema, create(schema, { what })));
+}
+
+/** What the page says, decoded: `{ case, value }`. */
+export function decoded(bytes) {
+  const { fromBinary } = require('@bufbuild/protobuf');
+  return fromBinary(schemaOf('FromPage'), bytes).what;
 }
 
 /** Collects what the server tells the page: the newest of each kind, and every event. */
@@ -179,7 +195,7 @@ function listen(page) {
   page.on('websocket', (socket) => {
     socket.on('framereceived', ({ payload }) => {
       if (typeof payload === 'string') return;
-      const { what } = fromBinary(toPage(), payload);
+      const { what } = fromBinary(schemaOf('ToPage'), payload);
       heard[what.case] = what.value;
       if (what.case === 'picture') heard.pictures.push(what.value);
       if (what.case === 'event') heard.events.push(what.value);
@@ -187,6 +203,15 @@ function listen(page) {
     });
   });
   return heard;
+}
+
+/** The changes that the run has told of. */
+export const directives = (heard) => heard.events.filter(({ kind }) => kind === 'directive');
+
+/** Moves a slider by a click at a share of its width. */
+export async function slideTo(page, slider, share) {
+  const box = await slider.boundingBox();
+  await page.mouse.click(box.x + 8 + (box.width - 16) * share, box.y + box.height / 2);
 }
 
 /** The picture's step, as it is drawn. */

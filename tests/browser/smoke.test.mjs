@@ -64,9 +64,17 @@ test(
   { timeout: 60_000 },
   async () => {
     await page.getByRole('group', { name: 'Intersection' }).getByRole('button', { name: 'Last 50 m' }).click();
-    const step = await stepOf(page);
-    const picture = heard.pictures.findLast((p) => Number(p.step) === step);
     const box = await page.locator('#picture').boundingBox();
+    // Where the run was paused is the machine's affair: on, until some cars are there.
+    await page.getByRole('group', { name: 'Speed' }).getByRole('button', { name: 'Medium' }).click();
+    await page.locator('#picture').press(' ');
+    const inSight = () => carsInSight(heard.hello, heard.pictures.at(-1), box, 0.6);
+    await until(() => heard.status?.phase === 'running' && inSight().length >= 5, 'five cars in sight', 40_000);
+    await page.locator('#picture').press(' ');
+    await until(() => heard.status?.phase === 'paused', 'paused');
+    const step = Number(heard.status.granted);
+    await until(async () => (await stepOf(page)) === step, 'the last picture');
+    const picture = heard.pictures.findLast((p) => Number(p.step) === step);
     await page.waitForTimeout(300);
     const cars = carsInSight(heard.hello, picture, box, 0.6); // the bonnet: body colour
     assert.ok(cars.length >= 2, `${cars.length} cars in sight`);

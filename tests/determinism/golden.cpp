@@ -27,7 +27,7 @@ scenario.textproto 4ed87dc339c88508e85aef05f1bd481b5c558e12f2eb3ee0d14fa97c32892
 stop.csv 7294999083b2b67081e2f6970e2aeda8fe33878f4426dae7838e52b017cf05e4
 stop_time.csv 82e4e18ceb748921c529b8d3a865f3876a6c8f90ce74bbdc65183f04f5073f06
 stops.csv d031e7ad74d206653cb79537fc7d562fc03692aabf92bc5ab6801064468c9d23
-summary.json 2e46e8fc12bbce42f343291fc93a28cac9d77aac75209740534b6b4b8a892902
+summary.json d56eae8bdf7b4d5e227141e43fa59dd5d894d188dade64cf3f54457ad71ed163
 )"},
       {.name = "protected left turns under changing demand",
        .arguments = paper_with(
@@ -44,7 +44,7 @@ scenario.textproto ae134bf7be3298fa59ba733e62f4b07f975974578519934379574feb2773c
 stop.csv 78df05efbf88e514960c204a9b716095e7739bdb21609578ced4f28ef26744d7
 stop_time.csv 24995a45268ca401a2251baa3b4e1ab902d6cd7f08a4a2e8bca74e0e4ff356f5
 stops.csv 62935f667afce70f98da390bfc04d129a99af6bb111f9d01bf2fc384320563a3
-summary.json fdb455853b3707d65be75de820d4aaf2e81ccd1cd28c136fd5434868c41195a7
+summary.json 193cee52228c8e7fa11ff98ab7c867becf137a567535533defed233c1d38a778
 )"},
       {.name = "lights on request, where nobody asks and lanes wait too long",
        .arguments = paper_with({"run.seed=3", "run.warmup_s=100", "signals.preset=PROTECTED_LEFT",
@@ -60,7 +60,7 @@ scenario.textproto 98f1df870621fb4f077878551d8f2cdb542d6764729ac4be2f6029762d9b5
 stop.csv 4c35c0ef51dae2b23598a5b7446d0d62cb8c5cb2bca91df2ad905cf622863ca6
 stop_time.csv 6692519d02c40fefeda93668cba007726ebdc505093d9ff549219d413d1ba617
 stops.csv 93abbe6d3e0026e6ab94cb6b9b0b6f2231e93fce74a480e94ba3b6bc9abddaf7
-summary.json 31d66c248ab32a1d33dee0df7314a097192c967e7787ebeab17490793c670d5f
+summary.json a81248ece58b307b7b143c3f458402e6d90198e13e7daff6754502530d3ae36b
 )"}};
   return kRuns;
 }

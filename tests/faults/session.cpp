@@ -242,8 +242,8 @@ class Session {
       observed_.left.push_back("process " + std::to_string(process.pid) + " " + role_of(process.command));
       kill(process.pid, SIGKILL);
     }
-    for (const std::string& name : process::bound_names(process::kRunSocketPrefix))
-      if (name.starts_with(run_ + "/")) observed_.left.push_back("socket " + name);
+    for (const process::ListedRun& listed : process::list_runs())
+      if (listed.run == run_) observed_.left.push_back("socket " + process::socket_name(listed));
     for (const std::string& name : shared_memory())
       if (!memory.contains(name) && name.find("lukou") != std::string::npos)
         observed_.left.push_back("/dev/shm/" + name);

@@ -14,6 +14,9 @@ export default defineConfig({
     target: 'es2022',
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
+    // A twentieth smaller than what esbuild makes.
+    minify: 'terser',
+    terserOptions: { module: true, compress: { passes: 2 } },
   },
   // The tests mirror the tree: tests/unit/services/console/web/lib/x.test.ts. They reach the page as `@page/lib/x`.
   resolve: { alias: { '@page': here('./src') } },

@@ -1,7 +1,6 @@
 #include "services/lukou/launch/child.hpp"
 
 #include <fcntl.h>
-#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +13,7 @@
 #include <cstring>
 
 #include "common/process/environment.hpp"
+#include "services/lukou/launch/cores.hpp"
 
 namespace lukou::launch {
 namespace {
@@ -26,12 +26,7 @@ constexpr int kSshFailed = 255;
   prctl(PR_SET_PDEATHSIG, process::launcher_died_signal());
   if (getppid() != parent) _exit(127);  // died meanwhile
   setpgid(0, 0);
-  if (spec.core) {
-    cpu_set_t cores;
-    CPU_ZERO(&cores);
-    CPU_SET(static_cast<unsigned>(*spec.core), &cores);
-    sched_setaffinity(0, sizeof cores, &cores);
-  }
+  if (spec.core) stay_on(*spec.core);
   if (!spec.log.empty()) {
     const int log = ::open(spec.log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
     if (log >= 0) {

@@ -4,16 +4,10 @@
 #include <sstream>
 
 #include "common/lockstep/roster.hpp"
+#include "services/lukou/launch/shell_word.hpp"
 
 namespace lukou::launch {
 namespace {
-
-/// One word for the shell at the other end.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 /// ssh hands a line of text to a shell of another host; whatever else stands here is handed our words and variables.
 bool is_ssh(const std::vector<std::string>& prefix) {
@@ -64,9 +58,9 @@ ChildSpec behind(const std::vector<std::string>& prefix, const std::filesystem::
   std::vector<std::string> command = prefix;
   if (is_ssh(prefix)) {
     std::string line = "exec env";
-    for (const std::string& variable : child.environment) line += " " + quoted(variable);
-    line += " " + quoted(leash.string()) + " leash --";
-    for (const std::string& word : child.command) line += " " + quoted(word);
+    for (const std::string& variable : child.environment) line += " " + shell_word(variable);
+    line += " " + shell_word(leash.string()) + " leash --";
+    for (const std::string& word : child.command) line += " " + shell_word(word);
     command.push_back(line);
     child.environment.clear();
     child.leashed = true;

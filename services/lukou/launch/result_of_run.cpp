@@ -17,6 +17,7 @@ namespace {
 
 /// What the manifest should say, from what the launcher saw.
 std::string ended_by(const RunEnd& end) {
+  if (end.io_failed) return "disk";
   if (end.culprit.empty()) return end.interrupted_by != 0 ? "interrupted" : "stopped";
   return (end.text.starts_with("has not finished") ? "stalled:" : "lost:") + end.culprit;
 }
@@ -30,7 +31,8 @@ int exit_code(const RunEnd& end) {
 }
 
 std::string for_people(const RunEnd& end, const results::Inspection& inspection) {
-  if (end.io_failed) return "the record could not be written; see operator.log";
+  // What the recorder logged may have found no room, either.
+  if (end.io_failed) return "the record could not be written: " + (end.text.empty() ? "see operator.log" : end.text);
   if (!end.culprit.empty()) return "aborted: " + end.culprit + " " + end.text;
   if (end.interrupted_by != 0) return "interrupted";
   if (end.anomaly) return "ended by an anomaly: " + end.text;

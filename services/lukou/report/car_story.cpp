@@ -26,23 +26,14 @@ namespace fs = std::filesystem;
 /// Shorter stretches of another kind are no stretch of their own: a driver's wish and its limits alternate quickly.
 constexpr Step kShortest = 5;
 
-std::string number(double value, const char* unit) {
+std::string rounded(double value, int decimals, const char* unit) {
   char text[48];
-  std::snprintf(text, sizeof text, "%.2f %s", value, unit);
+  std::snprintf(text, sizeof text, "%.*f %s", decimals, value, unit);
   return text;
 }
-
-std::string kmh(double speed_mps) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f km/h", speed_mps * 3.6);
-  return text;
-}
-
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f m", value);
-  return text;
-}
+std::string number(double value, const char* unit) { return rounded(value, 2, unit); }
+std::string kmh(double speed_mps) { return rounded(speed_mps * 3.6, 0, "km/h"); }
+std::string metres(double value) { return rounded(value, 0, "m"); }
 
 const char* what_binds(BoundBy bound) {
   switch (bound) {

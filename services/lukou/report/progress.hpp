@@ -4,12 +4,17 @@
 
 namespace lukou::report {
 
-/// Shows how a run goes on, on standard error: a bar that redraws itself on a terminal (unless NO_COLOR is set), a line
-/// every tenth of the run elsewhere.
+/// "1:02:03" or "2:03"
+std::string duration_text(double seconds);
+
+/// Shows how a run or a sweep goes on, on standard error: a bar that redraws itself on a terminal (unless NO_COLOR is
+/// set), a line every tenth of it elsewhere.
 class Progress {
  public:
   Progress();
   void show(const launch::RunNews& news);
+  /// `share` of it is done; `figures` stand behind the bar.
+  void show(const std::string& name, double share, const std::string& figures, const std::string& phase = "running");
   /// Leaves the terminal on a fresh line.
   void finish();
 

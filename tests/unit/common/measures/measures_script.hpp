@@ -13,7 +13,18 @@ class Script {
  public:
   explicit Script(double warmup_s = 0.0) : measures_(parameters(warmup_s)) {}
 
+  /// A car arrives, and waits until enter_waiting(). Vehicle 4 n + a comes from approach a.
+  void arrive(std::uint32_t vehicle, bool equipped = false) {
+    const std::uint32_t approach = vehicle % kApproaches;
+    ++arrived_[approach];
+    if (equipped) ++arrived_equipped_[approach];
+  }
+  /// A car arrives and comes onto the road at once.
   void enter(std::uint32_t vehicle, bool equipped = false, double speed_mps = 15.0) {
+    arrive(vehicle, equipped);
+    enter_waiting(vehicle, equipped, speed_mps);
+  }
+  void enter_waiting(std::uint32_t vehicle, bool equipped = false, double speed_mps = 15.0) {
     batch_.entered_vehicle.push_back(vehicle);
     batch_.entered_lane.push_back(kWestCenter);
     batch_.entered_equipped.push_back(equipped ? 1 : 0);
@@ -57,15 +68,19 @@ class Script {
     batch_.fate_again.push_back(again ? 1 : 0);
     batch_.fate_kind.push_back(static_cast<std::uint8_t>(AdviceKind::kAcceleration));
   }
+  /// What is told of approach 0, where cars wait.
   void counts(std::uint32_t arrived, std::uint32_t arrived_equipped, std::uint32_t waiting) {
-    batch_.arrived = {arrived, 0, 0, 0};
-    batch_.arrived_equipped = {arrived_equipped, 0, 0, 0};
-    batch_.waiting = {waiting, 0, 0, 0};
-    batch_.waiting_equipped = {0, 0, 0, 0};
+    arrived_[0] = arrived;
+    arrived_equipped_[0] = arrived_equipped;
+    waiting_[0] = waiting;
   }
   /// Hands the step in.
   void next() {
     batch_.step = step_++;
+    batch_.arrived = arrived_;
+    batch_.arrived_equipped = arrived_equipped_;
+    batch_.waiting = waiting_;
+    batch_.waiting_equipped.assign(kApproaches, 0);
     measures_.add(batch_);
     for (const FinishedCar& car : measures_.finished()) finished_.push_back(car);
     for (const FinishedStop& stop : measures_.finished_stops()) stops_.push_back(stop);
@@ -84,6 +99,9 @@ class Script {
   }
   RunMeasures measures_;
   TrafficBatch batch_;
+  std::vector<std::uint32_t> arrived_ = std::vector<std::uint32_t>(kApproaches, 0);
+  std::vector<std::uint32_t> arrived_equipped_ = arrived_;
+  std::vector<std::uint32_t> waiting_ = arrived_;
   std::vector<FinishedCar> finished_;
   std::vector<FinishedStop> stops_;
   Step step_ = 0;

@@ -10,13 +10,12 @@ using test::Script;
 TEST(RunMeasuresNow, CountsFromTheFirstStepWhateverTheWarmUp) {
   Script script(1000.0);
   script.counts(5, 3, 1);
-  script.enter(0, true);
-  script.enter(4);
+  script.enter_waiting(0, true);
+  script.enter_waiting(4);
   script.drive(0, 20.0, 15.0);
   script.drive(4, 5.0, 15.0);
   script.next();
   for (int i = 0; i < 3; ++i) {
-    script.counts(5, 3, 1);
     script.drive(0, 20.0, 0.0);
     script.drive(4, 5.0, 15.0);
     script.next();

@@ -234,6 +234,34 @@ TEST(RunMeasures, CopiesTheNewestCountsOfArrivals) {
   EXPECT_EQ(figures.unequipped.vehicles_waiting, 2U);
 }
 
+TEST(RunMeasures, CountsTheDelayOfEveryCarThatArrivedAfterTheWarmUpWhereverItIs) {
+  Script script(1.0);
+  script.enter(0);  // before the warm-up: counts nowhere
+  script.drive(0, 0.0, 15.0);
+  for (int k = 0; k < 10; ++k) script.next();
+  // At 1.0 s three cars arrive: one enters at once, one at 3.0 s, one never.
+  script.enter(4);
+  script.arrive(8, true);
+  script.arrive(12);
+  for (int k = 10; k < 30; ++k) script.next();
+  script.enter_waiting(8, true);
+  script.next();  // 3.0 s
+  script.leave(4, 43.5);
+  script.drive(8, 150.0, 15.0);
+  for (int k = 31; k < 151; ++k) script.next();  // 15.0 s
+  const RunFigures figures = script.measures().figures();
+  // At 15 m/s, the desired speed, 600 m take 40 s and 150 m take 10 s.
+  const double left_s = 42.5 - 40.0;
+  const double on_road_s = 2.0 + (12.0 - 10.0);
+  const double outside_s = 14.0;
+  EXPECT_EQ(figures.all.cars_arrived, 3U);
+  EXPECT_NEAR(*figures.all.mean_delay_all_s, (left_s + on_road_s + outside_s) / 3.0, 1e-9);
+  EXPECT_NEAR(*figures.all.mean_entry_wait_s, (0.0 + 2.0 + 14.0) / 3.0, 1e-9);
+  EXPECT_EQ(figures.equipped.cars_arrived, 1U);
+  EXPECT_NEAR(*figures.equipped.mean_delay_all_s, on_road_s, 1e-9);
+  EXPECT_NEAR(*figures.unequipped.mean_entry_wait_s, 7.0, 1e-9);
+}
+
 TEST(RunMeasures, TellsAStopWhenItIsOver) {
   Script script;
   script.enter(0, true);

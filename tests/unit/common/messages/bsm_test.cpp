@@ -232,6 +232,23 @@ TEST(Bsm, IsMalformedWithAValueBeyondTheStandardsRange) {
   EXPECT_FALSE(refused([](auto& wire) { wire.set_vehicle_class(255); }));
 }
 
+TEST(Bsm, ReadsTheFieldsInAnyOrder) {
+  const v2x::BasicSafetyMessage wire = on_the_wire(typical());
+  v2x::BasicSafetyMessage first;  // its fields come before those that are lower
+  first.set_speed_2cmps(wire.speed_2cmps());
+  first.set_vehicle_class(wire.vehicle_class());
+  v2x::BasicSafetyMessage rest = wire;
+  rest.clear_speed_2cmps();
+  rest.clear_vehicle_class();
+  const auto shuffled = decode_bsm(as_payload(first.SerializeAsString() + rest.SerializeAsString()));
+  ASSERT_TRUE(shuffled) << shuffled.error().text();
+  const BasicSafety in_order = decoded(typical());
+  EXPECT_EQ(shuffled.value().speed_mps, in_order.speed_mps);
+  EXPECT_EQ(shuffled.value().centre.x_m, in_order.centre.x_m);
+  EXPECT_EQ(shuffled.value().temporary_id, in_order.temporary_id);
+  EXPECT_EQ(shuffled.value().length_m, in_order.length_m);
+}
+
 TEST(Bsm, StepsOverFieldsOfALaterEdition) {
   std::string bytes = bytes_of(one_frame(typical()));
   bytes += std::string("\x92\x03\x02hi", 5);  // field 50, two bytes

@@ -1,6 +1,9 @@
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
+#include "console.pb.h"
 #include "tests/unit/services/console/hub_rig.hpp"
 
 namespace lukou::console {
@@ -77,7 +80,8 @@ TEST(HubOfARecording, PassesASeekOnAndRefusesChanges) {
   EXPECT_EQ(replay.refusal(replay.viewer, "seek 300"), "");
   EXPECT_EQ(replay.hub.take_request(), "seek 300");
   replay.hub.answered(true, "at step 3000 (300.0 s)");
-  EXPECT_EQ(replay.refusal(replay.viewer, "set traffic.west.flow_veh_per_h=1"), "nothing can be changed in a recording");
+  EXPECT_EQ(replay.refusal(replay.viewer, "set traffic.west.flow_veh_per_h=1"),
+            "nothing can be changed in a recording");
   EXPECT_EQ(replay.refusal(replay.viewer, "restart 5"), "nothing can be changed in a recording");
   EXPECT_EQ(replay.hub.take_restart(), std::nullopt);
   EXPECT_EQ(replay.refusal(replay.viewer, "vanish"),

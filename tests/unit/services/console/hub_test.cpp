@@ -1,7 +1,10 @@
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
 #include "common/core/keyed_random.hpp"
+#include "console.pb.h"
 #include "tests/unit/services/console/hub_rig.hpp"
 
 namespace lukou::console {

@@ -17,9 +17,9 @@ export function numberText(value: number | undefined, digits = 0): string {
   return value === undefined || !Number.isFinite(value) ? '–' : value.toFixed(digits);
 }
 
-/** 0.7 -> "70 %" */
+/** 0.7 -> "70 %", in one piece */
 export function percentText(share: number | undefined): string {
-  return share === undefined || !Number.isFinite(share) ? '–' : `${Math.round(share * 100)} %`;
+  return share === undefined || !Number.isFinite(share) ? '–' : `${Math.round(share * 100)}\u00a0%`;
 }
 
 /** A speed factor: 0.1, 9.8, 104, 2200. */

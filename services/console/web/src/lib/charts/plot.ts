@@ -10,6 +10,8 @@ export interface Line {
   readonly stroke: string;
   readonly dash?: number[];
   readonly width?: number;
+  /** Holds each value until the next one. */
+  readonly steps?: boolean;
 }
 
 /** A thin line from top to bottom. */
@@ -21,6 +23,11 @@ export interface Mark {
 export interface PlotOptions {
   readonly height: number;
   readonly timeLabel: string;
+  /** Beside the axes; absent: none. */
+  readonly xLabel?: string;
+  readonly yLabel?: string;
+  /** The y axis begins at 0; otherwise where the lines do. */
+  readonly fromZero?: boolean;
   readonly lines: readonly Line[];
   readonly ink: string; // of the axes
   readonly grid: string;
@@ -34,33 +41,43 @@ const textOf = (text: (value: number) => string) => (_: uPlot, value: number | n
   value == null ? '–' : text(value);
 const valueText = textOf((value) => String(Math.round(value * 1000) / 1000));
 
+const stepped = uPlot.paths.stepped!({ align: 1 });
+const fromZeroTo = (_: uPlot, __: number, max: number): uPlot.Range.MinMax => [0, Math.max(max ?? 0, 1e-3) * 1.08];
+const around = (_: uPlot, min: number, max: number): uPlot.Range.MinMax => {
+  const room = Math.max((max - min) * 0.04, 1e-3);
+  return [min - room, max + room];
+};
+const labelled = (label: string | undefined) =>
+  label === undefined ? {} : { label, labelSize: 18, labelFont: '12px system-ui' };
+
 /** Fills the width of `box`. Dragging zooms in, a double click shows all again, the names of the lines hide and show them. */
 export class Plot {
   private readonly plot: uPlot;
   private readonly sizes: ResizeObserver;
 
   constructor(box: HTMLElement, options: PlotOptions, columns: Columns) {
-    const { height, lines, ink, grid, marks } = options;
+    const { height, xLabel, yLabel, fromZero = true, lines, ink, grid, marks } = options;
     const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font: '11px system-ui' };
     this.plot = new uPlot(
       {
         width: box.clientWidth,
         height,
-        // From zero, and never a flat line in the middle of nowhere.
-        scales: { x: { time: false }, y: { range: (_, __, max) => [0, Math.max(max ?? 0, 1e-3) * 1.08] } },
+        // Never a flat line in the middle of nowhere.
+        scales: { x: { time: false }, y: { range: fromZero ? fromZeroTo : around } },
         cursor: { sync: { key: options.group } },
         legend: { live: true },
         axes: [
-          { ...axis, size: 22 },
-          { ...axis, size: 42 },
+          { ...axis, ...labelled(xLabel), size: 22 },
+          { ...axis, ...labelled(yLabel), size: 42 },
         ],
         series: [
           { label: options.timeLabel, value: textOf((time) => time.toFixed(1)) },
-          ...lines.map(({ label, stroke, dash, width = 1.5 }) => ({
+          ...lines.map(({ label, stroke, dash, width = 1.5, steps = false }) => ({
             label,
             stroke,
             dash,
             width,
+            paths: steps ? stepped : undefined,
             points: { show: false },
             value: valueText,
           })),
@@ -87,6 +104,36 @@ export class Plot {
     // Without a crosshair the legend shows the newest values.
     const newest = this.plot.data[0].length - 1;
     if (newest >= 0 && this.plot.cursor.idx == null) this.plot.setLegend({ idx: newest });
+  }
+
+  /** What the mouse does, by keyboard: arrows move the crosshair, + and - zoom there, Home shows all. False: not a key of these. */
+  key(key: string): boolean {
+    const { plot } = this;
+    const { left: edge, top, width } = plot.over.getBoundingClientRect();
+    const left = plot.cursor.left ?? -1;
+    const at = left >= 0 ? left : width;
+    const by = key === 'ArrowLeft' ? -1 : key === 'ArrowRight' ? 1 : 0;
+    if (by !== 0) {
+      // As the mouse: so the other charts of the group follow.
+      const to = Math.min(width - 1, Math.max(0, at + (by * width) / 40));
+      plot.over.dispatchEvent(new MouseEvent('mousemove', { clientX: edge + to, clientY: top + 10 }));
+    } else if (key === '+' || key === '=') this.zoom(at / width, 0.5);
+    else if (key === '-') this.zoom(at / width, 2);
+    else if (key === 'Home') plot.setData(plot.data, true);
+    else return false;
+    return true;
+  }
+
+  private zoom(share: number, factor: number): void {
+    const { data, scales } = this.plot;
+    const { min, max } = scales.x;
+    if (min == null || max == null || data[0].length < 2) return;
+    const held = min + (max - min) * share;
+    const first = data[0][0];
+    const last = data[0][data[0].length - 1];
+    const from = Math.max(first, held - (held - min) * factor);
+    const to = Math.min(last, held + (max - held) * factor);
+    if (to > from) this.plot.setScale('x', { min: from, max: to });
   }
 
   destroy(): void {

@@ -111,7 +111,9 @@ export class Console {
   private async put(path: string, value: string): Promise<Reply | null> {
     this.fields = asked(this.fields, path, value);
     const reply = await this.ask(`set ${path}=${value}`);
-    if (reply === null || !reply.ok) this.fields = refusedWith(this.fields, path, reply?.text ?? '');
+    // The clock repeats what it was asked; that stands beside the words already.
+    const why = (reply?.text ?? '').replace(`${path}=${value}: `, () => '');
+    if (reply === null || !reply.ok) this.fields = refusedWith(this.fields, path, why);
     this.refusal = '';
     return reply;
   }

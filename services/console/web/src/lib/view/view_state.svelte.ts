@@ -90,7 +90,7 @@ export class ViewState {
 
   resize(width: number, height: number): void {
     this.camera.size = { width, height };
-    if (this.fitted) this.fit(this.reachM / MARGIN);
+    if (this.fitted) this.camera.fit(this.reachM);
     ++this.cameraMoves;
   }
 

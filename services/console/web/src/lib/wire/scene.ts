@@ -88,6 +88,18 @@ export function uplinkLoss(scene: Scene, index: number): (typeof LOSS_CAUSES)[nu
   return LOSS_CAUSES[scene.uplink[index] - 1] ?? null;
 }
 
+/** The cars with advice in force, and how many of them each kind of bound decided over in this step. */
+export function guidedBy(scene: Scene): { cars: number; bounds: [bound: number, cars: number][] } {
+  const counts = new Map<number, number>();
+  let cars = 0;
+  scene.guidance.forEach((state, i) => {
+    if (state !== ADVICE_IN_FORCE) return;
+    ++cars;
+    counts.set(scene.boundBy[i], (counts.get(scene.boundBy[i]) ?? 0) + 1);
+  });
+  return { cars, bounds: [...counts].sort((a, b) => b[1] - a[1]) };
+}
+
 export function laneName(lane: number): string {
   return LANES[lane] ?? '?';
 }
