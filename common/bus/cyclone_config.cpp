@@ -50,13 +50,17 @@ std::string cyclone_config(const CycloneSettings& settings) {
   const std::string sizes = settings.peers.empty()
                                 ? "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>64000B</FragmentSize>"
                                 : "<MaxMessageSize>1452B</MaxMessageSize><FragmentSize>1344B</FragmentSize>";
-  const std::string ours = "<General>" + sizes +
-                           "</General>"
-                           // An announcement that is lost on a busy machine comes again after a second, not after 30.
-                           "<Discovery><LeaseDuration>60s</LeaseDuration><SPDPInterval>1s</SPDPInterval></Discovery>"
-                           "<Internal><WriterLingerDuration>0s</WriterLingerDuration>"
-                           "<Watermarks><WhcLow>1MB</WhcLow><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit>"
-                           "<WhcAdaptive>false</WhcAdaptive></Watermarks></Internal>";
+  const std::string ours =
+      "<General>" + sizes +
+      "</General>"
+      // An announcement that is lost on a busy machine comes again after a second, not after 30.
+      "<Discovery><LeaseDuration>60s</LeaseDuration><SPDPInterval>1s</SPDPInterval></Discovery>"
+      // Nothing of ours is as large as 64 MB, so nobody has to take such a thing from a stranger.
+      "<Internal><WriterLingerDuration>0s</WriterLingerDuration><MaxSampleSize>64MB</MaxSampleSize>"
+      // Writers keep a bounded history; no number of bytes that somebody has not taken may make
+      // them wait.
+      "<Watermarks><WhcLow>1MB</WhcLow><WhcHigh>1GB</WhcHigh><WhcHighInit>1GB</WhcHighInit>"
+      "<WhcAdaptive>false</WhcAdaptive></Watermarks></Internal>";
   std::string config = fragment((users ? "" : network(settings)) + ours);
   if (users) config += "," + settings.users_uri;
   const std::string secured = settings.identity == nullptr ? "" : security(*settings.identity, settings.plugins);

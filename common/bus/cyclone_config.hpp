@@ -18,7 +18,7 @@ struct CycloneSettings {
 };
 
 /// Cyclone's configuration of a run: loopback or the run's hosts only, closed to other runs by a discovery tag, large
-/// watermarks (a keep-all writer must never block inside the loop). What the user's CYCLONEDDS_URI says is appended and
+/// watermarks (no writer may block inside the loop). What the user's CYCLONEDDS_URI says is appended and
 /// wins, the tag and the security excepted.
 std::string cyclone_config(const CycloneSettings& settings);
 

@@ -304,6 +304,8 @@ void lend(const RunState& message, lukou_bus_RunState& sample, Scratch&) {
   sample.pace = message.pace;
   sample.text = lend_string(message.text);
   sample.culprit = lend_string(message.culprit);
+  sample.recorder = message.recorder;
+  sample.foreign_samples = message.foreign_samples;
 }
 
 void copy(const lukou_bus_RunState& sample, RunState& message) {
@@ -315,6 +317,8 @@ void copy(const lukou_bus_RunState& sample, RunState& message) {
   message.pace = sample.pace;
   copy_string(sample.text, message.text);
   copy_string(sample.culprit, message.culprit);
+  message.recorder = sample.recorder;
+  message.foreign_samples = sample.foreign_samples;
 }
 
 void lend(const View& message, lukou_bus_View& sample, Scratch&) {

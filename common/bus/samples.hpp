@@ -14,7 +14,7 @@ namespace lukou::bus {
 /// How a topic is carried.
 enum class Service : std::uint8_t {
   kLockstep,  ///< reliable, writer keep-last 512, reader keep-all
-  kStream,    ///< reliable, keep-all, writer liveliness 2 s
+  kStream,    ///< reliable, writer keep-last 4096, reader keep-all, writer liveliness 2 s
   kState,     ///< reliable, keep-last 1, transient-local
   kPicture,   ///< best effort, keep-last 1
 };

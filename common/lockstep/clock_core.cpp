@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace lukou {
+namespace {
+
+constexpr double kRefuseAgain_s = 1.0;
+
+}  // namespace
+
 ClockCore::ClockCore(ClockSettings settings)
     : settings_(std::move(settings)),
       rsus_(settings_.rsus),
@@ -44,10 +50,13 @@ void ClockCore::receive(double now_s, const Up& message) {
   if (message.kind == Up::Kind::kJoin) return join(now_s, message);
   if (message.kind == Up::Kind::kRequest) return request(now_s, message);
   if (message.kind == Up::Kind::kLost) {
+    const bool may_say = members_.contains(message.incarnation) ||
+                         (message.incarnation == settings_.launcher && settings_.launcher != 0);
+    if (!may_say) return;
     for (const auto& [incarnation, member] : members_)
       if (member.role == message.role) return lost(now_s, incarnation, RunOutcome::Kind::kLost, message.text);
     // A process that never joined: nobody to fence, the run cannot form.
-    if (phase_ == RunPhase::kForming) end({RunOutcome::Kind::kLost, message.role, message.text, recorded_});
+    if (phase_ == RunPhase::kForming || message.role == kClockRole) fail(message.role, message.text);
     return;
   }
   const auto found = members_.find(message.incarnation);
@@ -63,6 +72,7 @@ void ClockCore::receive(double now_s, const Up& message) {
       if (message.step > member.progress) progress_s_ = now_s;
       member.progress = std::max(member.progress, message.step);
       member.waiting_for = message.text;
+      foreign_samples_[message.incarnation] = message.number;
       break;
     case Up::Kind::kCredit:
       progress_s_ = now_s;
@@ -85,6 +95,7 @@ void ClockCore::receive(double now_s, const Up& message) {
       }
       break;
     case Up::Kind::kLeave:
+      foreign_samples_[message.incarnation] = message.number;
       // Before the end it is a loss like any other: the others must not wait for it.
       lost(now_s, message.incarnation, RunOutcome::Kind::kLost, "left before the end of the run");
       break;
@@ -97,7 +108,13 @@ void ClockCore::receive(double now_s, const Up& message) {
 
 void ClockCore::join(double now_s, const Up& message) {
   if (members_.contains(message.incarnation) || outcome_) return;
-  const auto refuse = [&](const std::string& why) { send(Control::Kind::kRefuse, message.incarnation).text = why; };
+  const auto refuse = [&](const std::string& why) {
+    // Everybody reads what is said to one: who asks without end is not answered without end.
+    const auto before = refused_s_.find(message.incarnation);
+    if (before != refused_s_.end() && now_s - before->second < kRefuseAgain_s) return;
+    refused_s_[message.incarnation] = now_s;
+    send(Control::Kind::kRefuse, message.incarnation).text = why;
+  };
   if (message.protocol != kProtocolVersion) {
     return refuse("speaks protocol version " + std::to_string(message.protocol) + ", the run speaks " +
                   std::to_string(kProtocolVersion));
@@ -125,6 +142,7 @@ void ClockCore::join(double now_s, const Up& message) {
   welcome.epoch = member.epoch;
   welcome.text = settings_.scenario_text;
   add_directives_sent(welcome);
+  if (message.role == kRecorderRole) recorder_ = message.incarnation;
   members_.emplace(message.incarnation, std::move(member));
   progress_s_ = now_s;
   if (missing_roles().empty() || phase_ != RunPhase::kForming) publish_roster();
@@ -193,10 +211,11 @@ Step ClockCore::budget(double now_s) {
 
 void ClockCore::grant(double now_s) {
   if (phase_ != RunPhase::kRunning && phase_ != RunPhase::kPaused) return;
-  if (rsu_awaited() && std::ranges::any_of(members_, [](const auto& m) { return !m.second.attached; })) return;
-  if (rsu_awaited() && !missing_roles().empty()) return;
-  const Step through = std::max(budget(now_s), through_);
+  const bool all_attached = std::ranges::all_of(members_, [](const auto& m) { return m.second.attached; });
+  const bool waits = rsu_awaited() && !(all_attached && missing_roles().empty());
+  const Step through = waits ? through_ : std::max(budget(now_s), through_);
   const bool last = through >= end_;
+  if (waits && !last) return;  // nobody comes back to a run that is to end here
   const bool news = through > through_ || (last && !last_sent_);
   phase_ = through >= hold_at_ && !last ? RunPhase::kPaused : RunPhase::kRunning;
   if (!news) return;
@@ -228,6 +247,7 @@ void ClockCore::grant(double now_s) {
 
 void ClockCore::gone(double now_s, Incarnation incarnation) {
   answers_.erase(incarnation);
+  refused_s_.erase(incarnation);
   // Under a debugger a process stands still for minutes: only the launcher's word counts then.
   if (members_.contains(incarnation) && settings_.watchdog) {
     lost(now_s, incarnation, RunOutcome::Kind::kLost, "is gone: its process ended, stands still or cannot be reached");
@@ -254,6 +274,10 @@ void ClockCore::fence(std::uint32_t rsu) {
   Control& fence = send(Control::Kind::kFence);
   fence.rsu = rsu;
   fence.epoch = life.epoch;
+}
+
+void ClockCore::fail(const std::string& culprit, const std::string& how) {
+  if (!outcome_) end({RunOutcome::Kind::kLost, culprit, how, recorded_});
 }
 
 void ClockCore::end(RunOutcome outcome) {
@@ -304,11 +328,23 @@ void ClockCore::watch(double now_s) {
     const bool silent = now_s - member.heard_s >= settings_.stall_limit_s / 2;
     if (!member.waiting_for.empty() && !silent) continue;
     return lost(now_s, incarnation, RunOutcome::Kind::kStalled,
-                "has not finished step " + std::to_string(std::max(member.progress + 1, member.first)) + " for " +
+                "has not finished step " + std::to_string(stalled_in(member)) + " for " +
                     std::to_string(static_cast<int>(now_s - progress_s_)) + " s");
   }
   end({RunOutcome::Kind::kStalled, std::string(kClockRole), "no participant makes progress and none says why",
        recorded_});
+}
+
+Step ClockCore::stalled_in(const Member& stalled) const {
+  // It says how far it is only while it waits; those who wait for it know better. Of an RSU they need the step before.
+  const Step delay = rsu_index(stalled.role) >= 0 ? kStepBefore.delay : kSameStep.delay;
+  Step step = std::max(stalled.progress + 1, stalled.first);
+  for (const auto& [incarnation, member] : members_) {
+    if (member.waiting_for == stalled.role && stalled.role != kControllerRole) {
+      step = std::max(step, member.progress + 1 - delay);
+    }
+  }
+  return step;
 }
 
 RunState ClockCore::state() const {
@@ -321,6 +357,8 @@ RunState ClockCore::state() const {
     state.text = outcome_->text;
     state.culprit = outcome_->culprit;
   }
+  state.recorder = recorder_;
+  for (const auto& [incarnation, samples] : foreign_samples_) state.foreign_samples += samples;
   return state;
 }
 

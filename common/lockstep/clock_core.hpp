@@ -18,6 +18,7 @@ enum class RsuLossPolicy : std::uint8_t { kAbort, kContinue, kWait };
 struct ClockSettings {
   std::string run;
   Incarnation incarnation = 0;
+  Incarnation launcher = 0;  ///< who may say, beside the members, that somebody is lost; 0 = nobody
   std::string scenario_text;
   std::string scenario_hash;
   std::uint32_t rsus = 1;
@@ -55,6 +56,8 @@ class ClockCore {
   void receive(double now_s, const Up& message);
   /// The process with this incarnation is gone without having left.
   void gone(double now_s, Incarnation incarnation);
+  /// The run ends unfinished, and nobody on the roster is to be blamed for it: the clock itself, or who started it.
+  void fail(const std::string& culprit, const std::string& how);
   /// The clock's own endpoints are matched with everybody on this roster.
   void sees(double now_s, std::uint32_t roster_version);
   /// Pace and deadlines; call at least ten times a second.
@@ -105,6 +108,8 @@ class ClockCore {
   [[nodiscard]] Step budget(double now_s);
   [[nodiscard]] std::vector<std::string> missing_roles() const;
   [[nodiscard]] bool rsu_awaited() const;
+  /// The step in which a stalled member stands, as far as anybody has said.
+  [[nodiscard]] Step stalled_in(const Member& stalled) const;
   Control& send(Control::Kind kind, Incarnation to = 0);
 
   ClockSettings settings_;
@@ -125,7 +130,10 @@ class ClockCore {
   Step through_ = -1;
   bool last_sent_ = false;
   Step recorded_ = -1;
-  Step hold_at_ = kNever;      ///< no grant beyond it: paused there
+  Incarnation recorder_ = 0;
+  std::map<Incarnation, std::uint64_t> foreign_samples_;  ///< by member, also those who have left
+  std::map<Incarnation, double> refused_s_;               ///< who asked in vain, and when it was told so last
+  Step hold_at_ = kNever;                                 ///< no grant beyond it: paused there
   bool single_steps_ = false;  ///< `step` asked for the way to it: at once, whatever the pace
   Step end_ = 0;
   std::string stopped_;  ///< why the run ends early: "stopped" or "interrupted"

@@ -55,15 +55,17 @@ struct Control {
 /// From everybody to the clock.
 struct Up {
   enum class Kind : std::uint8_t {
-    kJoin = 1,      ///< role, protocol, hash (may be empty)
-    kSees = 2,      ///< number = roster version whose members are all matched
-    kProgress = 3,  ///< step = last one executed; text = whom it waits for ("" = nobody)
-    kCredit = 4,    ///< recorder: step = last one committed
-    kReceipt = 5,   ///< number = RSU, step = first step not heard of it
-    kRequest = 6,   ///< operator: text = verb and argument; number = its requests so far, repeated until answered
-    kClosed = 7,    ///< recorder: the record is safe; step = complete to; text = anomaly, "" if none
-    kLeave = 8,
-    kLost = 9,  ///< launcher: the child with this role has ended; text = how
+    kJoin = 1,  ///< role, protocol, hash (may be empty)
+    kSees = 2,  ///< number = roster version whose members are all matched
+    kProgress =
+        3,        ///< step = last one executed; text = whom it waits for ("" = nobody); number = foreign samples so far
+    kCredit = 4,  ///< recorder: step = last one committed
+    kReceipt = 5,  ///< number = RSU, step = first step not heard of it
+    kRequest = 6,  ///< operator: text = verb and argument; number = its requests so far, repeated until answered
+    kClosed = 7,   ///< recorder: the record is safe; step = complete to; text = anomaly, "" if none
+    kLeave = 8,    ///< number = foreign samples
+    kLost = 9,  ///< launcher: the child with this role has ended; member: the role, its own perhaps, is of no use any
+                ///< more; text = how, why
   };
   Kind kind = Kind::kProgress;
   Incarnation incarnation = 0;
@@ -84,10 +86,12 @@ struct RunState {
   RunPhase phase = RunPhase::kForming;
   Step granted = -1;
   Step recorded = -1;
-  Step end = 0;         ///< last step that the run plans
-  double pace = 0.0;    ///< asked, simulated seconds per second; 0 = as fast as possible
-  std::string text;     ///< kForming: who is missing; kAborted: why
-  std::string culprit;  ///< kAborted: role
+  Step end = 0;                       ///< last step that the run plans
+  double pace = 0.0;                  ///< asked, simulated seconds per second; 0 = as fast as possible
+  std::string text;                   ///< kForming: who is missing; kAborted: why
+  std::string culprit;                ///< kAborted: role
+  Incarnation recorder = 0;           ///< whose pictures are the run's; 0: none has joined yet
+  std::uint64_t foreign_samples = 0;  ///< what members have ignored because nobody of the run had sent it
 };
 
 /// Running figures of groups of cars; each column has three entries: all cars, the equipped ones, the others. All count

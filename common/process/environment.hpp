@@ -29,14 +29,18 @@ void sleep_s(double duration_s);
 /// A number that no other process start will have.
 Incarnation new_incarnation();
 
-/// From now on SIGINT and SIGTERM only set a flag.
+/// From now on SIGINT, SIGTERM, SIGHUP and launcher_died_signal() only set a flag.
 void catch_stop_signals();
 /// By this signal the launcher tells a run's processes that their clock has died.
 int clock_died_signal();
-/// From now on SIGINT is ignored (children of the launcher: Ctrl-C is the launcher's business); SIGTERM and
-/// clock_died_signal() set a flag.
+/// By this signal the kernel tells a run's processes that their launcher has died.
+int launcher_died_signal();
+/// From now on SIGINT is ignored (children of the launcher: Ctrl-C is the launcher's business); SIGTERM,
+/// clock_died_signal() and launcher_died_signal() set a flag.
 void catch_terminate_signal();
 /// The last stop signal received, 0 if none.
 int stop_signal();
+/// Whether a SIGTERM came from the process that started this one. Known after catch_terminate_signal().
+bool terminated_by_launcher();
 
 }  // namespace lukou::process

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "common/process/environment.hpp"
+#include "common/process/log.hpp"
+#include "common/process/run_list.hpp"
 
 namespace lukou::process {
 namespace {
@@ -37,9 +39,15 @@ Member::Member(Settings settings, std::unique_ptr<bus::Participant> participant)
     : settings_(std::move(settings)),
       participant_(std::move(participant)),
       control_(*participant_),
-      up_(*participant_) {
-  faces(Topic::kControl, control_, false);
-  faces(Topic::kUp, up_, true);
+      up_(*participant_),
+      clock_(clock_of(settings_.address)) {
+  faces(Topic::kControl, control_);
+  faces(Topic::kUp, up_);
+  control_.believe(
+      [this](Incarnation who) { return clock_ == 0 || clock_ == who ? bus::Belief::kYes : bus::Belief::kForeign; });
+  control_.on_flaw([this](Incarnation, const std::string& flaw) {
+    finish({MemberEnd::Kind::kAborted, std::string(kClockRole), flaw});
+  });
   participant_->keep_writing_while([this] {
     poll();
     return running();
@@ -101,13 +109,7 @@ void Member::receive(const Control& control) {
   if (control.to != 0 && !to_me) return;
   switch (control.kind) {
     case Control::Kind::kWelcome:
-      clock_ = control.clock;
-      scenario_ = control.text;
-      epoch_ = control.epoch;
-      if (epoch_ == 1) first_step_ = 0;
-      for (std::size_t i = 0; i < control.directive_step.size(); ++i)
-        directives_.push_back({control.directive_step[i], control.directive_set[i]});
-      return;
+      return welcome(control);
     case Control::Kind::kRefuse:
       refused_ = Error{"run " + settings_.address.run, "refused: " + control.text};
       return;
@@ -118,13 +120,15 @@ void Member::receive(const Control& control) {
   }
   if (!scenario_) return;  // what is said to others before this process takes part
   switch (control.kind) {
-    case Control::Kind::kRoster:
-      roster_.clear();
+    case Control::Kind::kRoster: {
+      Fellows::Roster roster;
       for (std::size_t i = 0; i < control.roster_incarnation.size(); ++i)
-        roster_[control.roster_incarnation[i]] = control.roster_role[i];
+        roster[control.roster_incarnation[i]] = control.roster_role[i];
+      fellows_.take(roster);
       roster_version_ = control.roster_version;
       roster_open_ = true;
       break;
+    }
     case Control::Kind::kGrant:
       for (std::size_t i = 0; i < control.directive_step.size(); ++i)
         directives_.push_back({control.directive_step[i], control.directive_set[i]});
@@ -142,6 +146,7 @@ void Member::receive(const Control& control) {
       }
       break;
     case Control::Kind::kFence:
+      fellows_.fence(rsu_role(control.rsu));
       if (rsu_role(control.rsu) == settings_.role && control.epoch == epoch_) {
         end_ = MemberEnd{MemberEnd::Kind::kFenced, settings_.role, "the run goes on without this process"};
       } else if (fence_) {
@@ -150,19 +155,36 @@ void Member::receive(const Control& control) {
       break;
     case Control::Kind::kEnded:
       end_ = MemberEnd{MemberEnd::Kind::kEnded, "", control.text};
+      told_by_clock_ = true;
       break;
     case Control::Kind::kAbort:
       end_ = MemberEnd{MemberEnd::Kind::kAborted, control.culprit, control.text};
+      told_by_clock_ = true;
       break;
     default:
       break;
   }
 }
 
+void Member::welcome(const Control& control) {
+  // Where nobody has said who the clock is, there must be one only.
+  if (clock_ == 0 && control_.matched().size() > 1) {
+    refused_ = Error{"run " + settings_.address.run,
+                     "topic lukou/control has several writers; one of them is a stranger, and which cannot be told"};
+    return;
+  }
+  clock_ = control.clock;
+  scenario_ = control.text;
+  epoch_ = control.epoch;
+  if (epoch_ == 1) first_step_ = 0;
+  for (std::size_t i = 0; i < control.directive_step.size(); ++i)
+    directives_.push_back({control.directive_step[i], control.directive_set[i]});
+}
+
 void Member::check_roster() {
   for (const Endpoint& endpoint : endpoints_) {
     const auto matched = endpoint.matched();
-    for (const auto& [incarnation, role] : roster_) {
+    for (const auto& [incarnation, role] : fellows_.roster()) {
       const bool faces = endpoint.writer ? reads(role, endpoint.topic) : writes(role, endpoint.topic);
       if (faces && incarnation != participant_->self() && !matched.contains(incarnation)) return;
     }
@@ -182,7 +204,11 @@ void Member::heartbeat() {
   const double now_s = wall_s();
   if (now_s - heartbeat_s_ < kHeartbeat_s) return;
   heartbeat_s_ = now_s;
-  send({.kind = Up::Kind::kProgress, .step = progress_, .text = waiting_for_});
+  tell_foreign();
+  send({.kind = Up::Kind::kProgress,
+        .number = participant_->foreign_samples(),
+        .step = progress_,
+        .text = waiting_for_});
 }
 
 void Member::wait(const std::string& for_whom) {
@@ -193,6 +219,34 @@ void Member::wait(const std::string& for_whom) {
   poll();
 }
 
-void Member::leave() { send({.kind = Up::Kind::kLeave, .step = progress_}); }
+void Member::finish(MemberEnd end) {
+  if (!end_) end_ = std::move(end);
+}
+
+void Member::leave() {
+  const bool somebodys_fault = end_->kind == MemberEnd::Kind::kAborted || end_->kind == MemberEnd::Kind::kClockLost;
+  if (somebodys_fault && !told_by_clock_) accuse(end_->culprit, end_->text);
+  tell_foreign();
+  for (const auto& [topic, foreign] : participant_->foreign())
+    log_warning("topic " + topic + ": ignored " + std::to_string(foreign.samples) + " foreign samples");
+  send({.kind = Up::Kind::kLeave, .number = participant_->foreign_samples(), .step = progress_});
+}
+
+void Member::distrust(Incarnation incarnation, const std::string& what) {
+  if (!fellows_.distrust(incarnation)) return;
+  const std::string role = role_of(incarnation);
+  log_error(role + ": " + what);
+  accuse(role, what);
+}
+
+void Member::tell_foreign() {
+  for (const auto& [topic, foreign] : participant_->foreign()) {
+    if (told_foreign_.insert(topic).second) log_warning("topic " + topic + ": ignores " + foreign.first);
+  }
+}
+
+void Member::accuse(const std::string& culprit, const std::string& what) {
+  up_.write({.kind = Up::Kind::kLost, .incarnation = participant_->self(), .role = culprit, .text = what});
+}
 
 }  // namespace lukou::process

@@ -12,6 +12,7 @@
 #include "common/core/expected.hpp"
 #include "common/lockstep/edge.hpp"
 #include "common/lockstep/messages.hpp"
+#include "common/process/fellows.hpp"
 
 namespace lukou::process {
 
@@ -42,10 +43,22 @@ class Member {
 
   /// Declares an endpoint of this process, before join() or between join() and the first step: the start waits until it
   /// is matched with everybody on the roster who faces it.
-  template <class Endpoint>
-  void faces(Topic topic, const Endpoint& endpoint, bool writer) {
-    endpoints_.push_back({topic, writer, [&endpoint] { return endpoint.matched(); }});
+  template <class Batch>
+  void faces(Topic topic, const bus::Writer<Batch>& writer) {
+    endpoints_.push_back({topic, true, [&writer] { return writer.matched(); }});
   }
+  /// A reader hands over, from then on, only what members say whose topic it is; one that sends what is broken is lost.
+  template <class Batch>
+  void faces(Topic topic, bus::Reader<Batch>& reader) {
+    endpoints_.push_back({topic, false, [&reader] { return reader.matched(); }});
+    reader.believe([this, topic](Incarnation who) { return fellows_.belief(topic, who); });
+    reader.on_flaw([this](Incarnation who, const std::string& flaw) { distrust(who, flaw); });
+  }
+
+  /// Role of a process that takes part; empty if it does not.
+  [[nodiscard]] std::string role_of(Incarnation incarnation) const { return fellows_.role_of(incarnation); }
+  /// What this member sends is of no use: the clock is told, and decides what becomes of the run.
+  void distrust(Incarnation incarnation, const std::string& what);
 
   /// Asks to take part until the clock welcomes this process. Returns the resolved scenario.
   /// Errors: refused (both values), or no clock within the limit (domain, run).
@@ -78,8 +91,8 @@ class Member {
   /// Waits for news (at most 100 ms), saying for whom: "" = nobody.
   void wait(const std::string& for_whom);
   void send(Up message);
-  /// Ends this process's part from inside.
-  void finish(MemberEnd end) { end_ = std::move(end); }
+  /// Ends this process's part from inside: the clock is told whose fault that is, and why.
+  void finish(MemberEnd end);
   void leave();
 
  private:
@@ -91,8 +104,13 @@ class Member {
 
   Member(Settings settings, std::unique_ptr<bus::Participant> participant);
   void receive(const Control& control);
+  void welcome(const Control& control);
   void check_roster();
   void heartbeat();
+  /// Tells the clock that a member, perhaps this one, cannot go on.
+  void accuse(const std::string& culprit, const std::string& what);
+  /// Says in the log what strangers have begun to send.
+  void tell_foreign();
 
   Settings settings_;
   std::unique_ptr<bus::Participant> participant_;
@@ -113,7 +131,8 @@ class Member {
   std::string stopped_;
   std::vector<Directive> directives_;
   std::size_t directives_due_ = 0;
-  std::map<Incarnation, std::string> roster_;
+  Fellows fellows_;
+  std::set<std::string> told_foreign_;  ///< topics of which the log has been told
   std::uint32_t roster_version_ = 0;
   bool roster_open_ = false;
   bool joined_ = false;  ///< every endpoint is declared: the roster may be answered
@@ -121,6 +140,7 @@ class Member {
   std::string waiting_for_;
   double heartbeat_s_ = 0.0;
   std::optional<MemberEnd> end_;
+  bool told_by_clock_ = false;  ///< how it ends; otherwise the clock may not know
 };
 
 }  // namespace lukou::process

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/process/environment.hpp"
+#include "common/process/run_list.hpp"
 
 namespace lukou::process {
 namespace {
@@ -11,19 +12,31 @@ constexpr double kAskAgain_s = 0.2;
 
 }  // namespace
 
-Expected<std::unique_ptr<RunClient>> RunClient::attach(const bus::Address& address, bool with_view) {
-  auto participant = bus::Participant::join(address, kObserverRole, new_incarnation());
+Expected<std::unique_ptr<RunClient>> RunClient::attach(const bus::Address& address, bool with_view, Incarnation self) {
+  auto participant = bus::Participant::join(address, kObserverRole, self == 0 ? new_incarnation() : self);
   if (!participant) return participant.error();
-  return std::unique_ptr<RunClient>(new RunClient(std::move(participant).value(), with_view));
+  return std::unique_ptr<RunClient>(new RunClient(std::move(participant).value(), with_view, clock_of(address)));
 }
 
-RunClient::RunClient(std::unique_ptr<bus::Participant> participant, bool with_view)
+RunClient::RunClient(std::unique_ptr<bus::Participant> participant, bool with_view, Incarnation clock)
     : participant_(std::move(participant)),
+      clock_(clock),
       up_(*participant_),
       control_(*participant_),
       states_(*participant_),
       heard_s_(wall_s()) {
-  if (with_view) views_.emplace(*participant_);
+  const auto of_the_clock = [this](Incarnation who) {
+    return clock_ == 0 || who == clock_ ? bus::Belief::kYes : bus::Belief::kForeign;
+  };
+  control_.believe(of_the_clock);
+  states_.believe(of_the_clock);
+  if (with_view) {
+    views_.emplace(*participant_);
+    views_->believe([this](Incarnation who) {
+      if (!state_ || state_->recorder == 0) return bus::Belief::kIgnored;
+      return who == state_->recorder ? bus::Belief::kYes : bus::Belief::kForeign;
+    });
+  }
   participant_->keep_writing_while([] { return false; });
 }
 
@@ -46,12 +59,13 @@ void RunClient::poll(double timeout_s) {
   }
   states_.take([this](RunState& state, const bus::SampleInfo& info) {
     if (!info.alive) return;
+    clock_ = info.producer;
     state_ = state;
     heard_s_ = wall_s();
   });
   if (!views_) return;
   views_->take([this](View& view, const bus::SampleInfo& info) {
-    if (!info.alive || !view.well_formed()) return;
+    if (!info.alive) return;
     if (!view_) view_.emplace();
     std::swap(*view_, view);
     ++views_taken_;
@@ -60,7 +74,7 @@ void RunClient::poll(double timeout_s) {
 
 double RunClient::clock_silent_s() const { return wall_s() - heard_s_; }
 
-bool RunClient::connected() const { return !up_.matched().empty() && !control_.matched().empty(); }
+bool RunClient::connected() { return !up_.matched().empty() && !control_.matched().empty(); }
 
 void RunClient::ask(const std::string& request) {
   request_ = Up{.kind = Up::Kind::kRequest, .role = std::string(kObserverRole), .number = ++requests_, .text = request};

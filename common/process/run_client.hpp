@@ -13,8 +13,8 @@ namespace lukou::process {
 /// An operator's way into a run: an observer that may ask the clock for things.
 class RunClient {
  public:
-  /// `with_view`: also takes the picture that the recorder publishes.
-  static Expected<std::unique_ptr<RunClient>> attach(const bus::Address& address, bool with_view);
+  /// `with_view`: also takes the picture that the recorder publishes. `self`: its incarnation, 0 = a new one.
+  static Expected<std::unique_ptr<RunClient>> attach(const bus::Address& address, bool with_view, Incarnation self = 0);
 
   /// Called with everything that the clock says to all, and with its answers to this client, in its order.
   void on_control(std::function<void(const Control&)> action) { heard_ = std::move(action); }
@@ -27,8 +27,10 @@ class RunClient {
   [[nodiscard]] std::uint64_t views() const { return views_taken_; }
   /// Wall time since the clock's last word; since attach() as long as there was none.
   [[nodiscard]] double clock_silent_s() const;
+  /// What this client has ignored because it does not come from the run's clock or recorder.
+  [[nodiscard]] std::uint64_t foreign_samples() const { return participant_->foreign_samples(); }
   /// True once the clock hears this client and is heard by it.
-  [[nodiscard]] bool connected() const;
+  [[nodiscard]] bool connected();
 
   /// Asks the clock ("pause", "set PATH=VALUE", ...) without waiting for the answer; poll() asks again until it comes.
   void ask(const std::string& request);
@@ -40,9 +42,10 @@ class RunClient {
   void report_lost(const std::string& role, const std::string& how);
 
  private:
-  RunClient(std::unique_ptr<bus::Participant> participant, bool with_view);
+  RunClient(std::unique_ptr<bus::Participant> participant, bool with_view, Incarnation clock);
 
   std::unique_ptr<bus::Participant> participant_;
+  Incarnation clock_;  ///< whom it believes; 0 = nobody has spoken yet who may be it
   bus::Writer<Up> up_;
   bus::Reader<Control> control_;
   bus::Reader<RunState> states_;

@@ -12,13 +12,14 @@ constexpr std::string_view kSocketPrefix = "lukou/run/";
 constexpr std::string_view kSecured = "secured";
 constexpr std::string_view kHosts = "hosts";
 
-/// "<run>/<domain>", then "/secured" and "/hosts" if it is so.
+/// "<run>/<domain>/<clock>", then "/secured" and "/hosts" if it is so.
 ListedRun parsed(const std::string& name) {
   std::stringstream parts(name);
   ListedRun run;
   std::string part;
   std::getline(parts, run.run, '/');
   if (std::getline(parts, part, '/')) run.domain = std::atoi(part.c_str());
+  if (std::getline(parts, part, '/')) run.clock = std::strtoull(part.c_str(), nullptr, 16);
   while (std::getline(parts, part, '/')) {
     run.secured = run.secured || part == kSecured;
     run.hosts = run.hosts || part == kHosts;
@@ -43,7 +44,8 @@ Expected<bus::Address> address_of(const ListedRun& listed, const bus::Address& g
 }  // namespace
 
 std::string socket_name(const ListedRun& run) {
-  std::string name = std::string(kSocketPrefix) + run.run + "/" + std::to_string(run.domain);
+  std::string name =
+      std::string(kSocketPrefix) + run.run + "/" + std::to_string(run.domain) + "/" + bus::text_of(run.clock);
   if (run.secured) name.append("/").append(kSecured);
   if (run.hosts) name.append("/").append(kHosts);
   return name;
@@ -68,6 +70,12 @@ std::vector<ListedRun> list_runs() {
   }
   std::ranges::sort(runs, {}, &ListedRun::run);
   return runs;
+}
+
+Incarnation clock_of(const bus::Address& address) {
+  for (const ListedRun& run : list_runs())
+    if (run.run == address.run && run.domain == address.domain) return run.clock;
+  return 0;
 }
 
 Expected<bus::Address> find_run(const std::string& name, const bus::Address& given) {

@@ -34,7 +34,19 @@ void run_steps(Member& member, Receive receive, WaitingFor waiting_for, Execute 
   member.leave();
 }
 
-/// Ends a member's part because an input is broken: a gap in the steps, an impossible batch.
+/// Takes what has come in. `accept(batch, info)` puts it where it belongs; a sender whose batch has no place there,
+/// such as one after a gap in the steps, is of no use to the run any more.
+template <class Batch, class Accept>
+void hear(Member& member, bus::Reader<Batch>& reader, Accept accept) {
+  reader.take([&](Batch& batch, const bus::SampleInfo& info) {
+    if (!info.alive) return;
+    if (Expected<Done> done = accept(batch, info); !done) {
+      member.distrust(info.producer, std::string("topic ") + reader.topic() + ": " + done.error().what);
+    }
+  });
+}
+
+/// Ends a member's part because it cannot go on itself.
 inline void give_up(Member& member, const std::string& role, const Error& error) {
   log_error(error.text());
   member.finish({MemberEnd::Kind::kAborted, role, error.text()});

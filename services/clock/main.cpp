@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include "common/bus/participant.hpp"
@@ -15,20 +17,23 @@ constexpr double kStateEvery_s = 0.1;
 constexpr double kGoodbye_s = 2.0;
 constexpr double kLastWords_s = 0.5;
 constexpr double kPacedTick_s = 0.02;
+constexpr std::size_t kOpenRequests = 16;  ///< of one operator; it asks again until it is answered
 constexpr double kIdleTick_s = 0.1;
 
 /// The clock's endpoints and what they carry between the bus and the core.
 class ClockOnTheBus {
  public:
   ClockOnTheBus(bus::Participant& participant, ClockCore& core)
-      : core_(core), up_(participant), control_(participant), state_(participant) {}
+      : participant_(participant), core_(core), up_(participant), control_(participant), state_(participant) {}
 
   void receive() {
     up_.take([this](Up& message, const bus::SampleInfo& info) {
       if (info.alive && message.kind == Up::Kind::kRequest) {
-        requests_.push_back(message);
-      } else if (info.alive && message.kind == Up::Kind::kJoin && !control_.matched().contains(message.incarnation)) {
-        return;  // the Welcome would not reach it: it asks again
+        const auto open = std::ranges::count(requests_, message.incarnation, &Up::incarnation);
+        if (open < static_cast<std::ptrdiff_t>(kOpenRequests)) requests_.push_back(message);
+      } else if (info.alive && message.kind == Up::Kind::kJoin) {
+        // Discovery goes both ways: a welcome before the other side has matched would be lost. It asks again.
+        if (control_.matched().contains(message.incarnation)) core_.receive(process::wall_s(), message);
       } else if (info.alive) {
         core_.receive(process::wall_s(), message);
       } else {
@@ -45,7 +50,7 @@ class ClockOnTheBus {
 
   void send() {
     for (const Control& control : core_.take_outbox()) control_.write(control);
-    const RunState now = core_.state();
+    const RunState now = state();
     const double now_s = process::wall_s();
     const bool changed = now.phase != told_.phase || now.text != told_.text;
     if (changed || now_s - told_s_ >= kStateEvery_s) {
@@ -56,12 +61,23 @@ class ClockOnTheBus {
   }
 
   /// The last answers and the end of the run may still be under way to operators who came a moment ago.
-  void finish() const {
+  void finish() {
+    state_.write(state());
+    for (const auto& [topic, foreign] : participant_.foreign()) {
+      process::log_warning("topic " + topic + ": ignored " + std::to_string(foreign.samples) +
+                           " foreign samples, first " + foreign.first);
+    }
     control_.finish(kLastWords_s);
     state_.finish(kLastWords_s);
   }
 
  private:
+  [[nodiscard]] RunState state() const {
+    RunState state = core_.state();
+    state.foreign_samples += participant_.foreign_samples();
+    return state;
+  }
+
   /// In their order, as soon as the answer can reach whoever asked: an operator is heard before its reader is matched,
   /// and a run that ends at its request could not answer a second time.
   void execute_requests() {
@@ -74,7 +90,7 @@ class ClockOnTheBus {
     });
   }
 
-  [[nodiscard]] bool sees_all() const {
+  [[nodiscard]] bool sees_all() {
     const auto heard = up_.matched();
     const auto reached = control_.matched();
     for (const auto& [incarnation, role] : core_.roster())
@@ -82,6 +98,7 @@ class ClockOnTheBus {
     return true;
   }
 
+  bus::Participant& participant_;
   ClockCore& core_;
   bus::Reader<Up> up_;
   bus::Writer<Control> control_;
@@ -105,6 +122,9 @@ int exit_code(const RunOutcome& outcome) {
   }
   return process::kExitInternal;
 }
+
+/// 0 if there is none.
+Incarnation incarnation_in(const std::string& text) { return std::strtoull(text.c_str(), nullptr, 16); }
 
 RsuLossPolicy policy_of(const std::string& name) {
   if (name == "CONTINUE") return RsuLossPolicy::kContinue;
@@ -154,7 +174,9 @@ int run(int argc, char** argv) {
                                {"--wait", "hold the run at step 0", true},
                                {"--replay-directives", "directives.textproto of an earlier run"},
                                {"--stall-limit", "wall seconds without progress after which a run is aborted"},
-                               {"--forming-limit", "wall seconds in which everybody must have joined"}});
+                               {"--forming-limit", "wall seconds in which everybody must have joined"},
+                               {"--incarnation", "its name on the bus, by which others know it; 16 hexadecimal digits"},
+                               {"--launcher", "that of the process which may say that another has ended"}});
   if (!options) return std::stoi(options.error().what);
   process::catch_terminate_signal();
   auto scenario = scenario::load(options.value().value("--scenario"));
@@ -162,9 +184,12 @@ int run(int argc, char** argv) {
   auto settings = settings_of(options.value(), scenario.value());
   if (!settings) return process::report_start(settings.error(), process::kExitUsage);
 
-  const auto participant = bus::Participant::join(options.value().address, kClockRole, process::new_incarnation());
+  const Incarnation given = incarnation_in(options.value().value("--incarnation"));
+  const auto participant =
+      bus::Participant::join(options.value().address, kClockRole, given != 0 ? given : process::new_incarnation());
   if (!participant) return process::report_start(participant.error(), process::kExitAborted);
   settings.value().incarnation = participant.value()->self();
+  settings.value().launcher = incarnation_in(options.value().value("--launcher"));
   ClockCore core(settings.value());
   ClockOnTheBus clock(*participant.value(), core);
   const bool watchdog = settings.value().watchdog;
@@ -177,7 +202,12 @@ int run(int argc, char** argv) {
     core.tick(process::wall_s());
     clock.send();
     if (core.outcome() && over_s == 0.0) over_s = process::wall_s();
-    if (process::stop_signal() != 0 && (watchdog || over_s != 0.0)) return process::kExitTerminated;
+    if (process::stop_signal() == 0) continue;
+    // Whoever started the run ends everybody; a signal of somebody else's ends the clock, and the others must know.
+    const bool all_ended =
+        process::terminated_by_launcher() || process::stop_signal() == process::launcher_died_signal();
+    if (all_ended && (watchdog || over_s != 0.0)) return process::kExitTerminated;
+    if (!all_ended) core.fail(std::string(kClockRole), "was ended by a signal");
   }
   clock.finish();
   if (!core.outcome()->text.empty()) process::log_error(core.outcome()->culprit + " " + core.outcome()->text);

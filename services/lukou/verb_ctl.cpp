@@ -39,6 +39,9 @@ void print_state(const process::RunClient& client) {
     std::printf(", %u cars on the road, %u waiting, %u standing, mean stop time %.2f s", all.in_system.front(),
                 all.waiting.front(), all.standing.front(), std::isnan(mean_s) ? 0.0 : mean_s);
   }
+  if (state.foreign_samples > 0) {
+    std::printf(", %llu samples of strangers ignored", static_cast<unsigned long long>(state.foreign_samples));
+  }
   std::printf("%s%s\n", state.text.empty() ? "" : ", ", state.text.c_str());
   std::fflush(stdout);
 }

@@ -16,18 +16,15 @@ constexpr double kCreditEvery_s = 0.5;  ///< wall time, for slow paces
 std::string ended_by(const process::Member& member) {
   using Kind = process::MemberEnd::Kind;
   const process::MemberEnd& end = member.end();
-  switch (end.kind) {
-    case Kind::kEnded:
-      return member.stopped().empty() ? "done" : member.stopped();
-    case Kind::kAborted:
-      return (end.text.starts_with("has not finished") ? "stalled:" : "lost:") + end.culprit;
-    case Kind::kClockLost:
-      return "lost:clock";
-    case Kind::kTerminated:
-    case Kind::kFenced:
-      break;
+  if (end.kind == Kind::kEnded) return member.stopped().empty() ? "done" : member.stopped();
+  // With its launcher everybody ends, and so does everybody where Ctrl-C cannot end the run in its own way: whom that
+  // hit first says nothing.
+  if (process::stop_signal() == process::launcher_died_signal()) return "lost:lukou";
+  if (end.kind == Kind::kAborted) {
+    return (end.text.starts_with("has not finished") ? "stalled:" : "lost:") + end.culprit;
   }
-  return "lost:lukou";
+  if (process::terminated_by_launcher()) return "interrupted";
+  return end.kind == Kind::kClockLost ? "lost:clock" : "lost:" + std::string(kRecorderRole);
 }
 
 /// The recorder's part in a run.
@@ -36,8 +33,8 @@ class Recorder {
   Recorder(process::Member& member, RecorderNode node, Step promise)
       : member_(member), node_(std::move(node)), signal_(signal_timing(promise)), views_(member.participant()) {}
 
-  void hear(TrafficBatch& batch, std::uint32_t epoch) { check(traffic_.accept(epoch, batch)); }
-  void hear(SignalBatch& batch, std::uint32_t epoch) { check(signal_.accept(epoch, batch)); }
+  Expected<Done> hear(TrafficBatch& batch, std::uint32_t epoch) { return traffic_.accept(epoch, batch); }
+  Expected<Done> hear(SignalBatch& batch, std::uint32_t epoch) { return signal_.accept(epoch, batch); }
 
   [[nodiscard]] std::string waiting_for(Step k) {
     if (closed_) return "clock";
@@ -109,10 +106,6 @@ class Recorder {
     member_.finish({process::MemberEnd::Kind::kAborted, std::string(kRecorderRole), error.text()});
   }
 
-  void check(const Expected<Done>& done) {
-    if (!done) process::give_up(member_, std::string(kRecorderRole), done.error());
-  }
-
   process::Member& member_;
   RecorderNode node_;
   Edge<TrafficBatch> traffic_{kSameStep};
@@ -139,8 +132,8 @@ int run(int argc, char** argv) {
   process::Member& member = *created.value();
   bus::Reader<TrafficBatch> traffic_in(member.participant());
   bus::Reader<SignalBatch> signal_in(member.participant());
-  member.faces(Topic::kTraffic, traffic_in, false);
-  member.faces(Topic::kSignal, signal_in, false);
+  member.faces(Topic::kTraffic, traffic_in);
+  member.faces(Topic::kSignal, signal_in);
 
   const auto welcome = member.join();
   if (!welcome) return process::report_start(welcome.error(), process::kExitUsage);
@@ -154,12 +147,9 @@ int run(int argc, char** argv) {
   process::run_steps(
       member,
       [&] {
-        traffic_in.take([&](TrafficBatch& batch, const bus::SampleInfo& info) {
-          if (info.alive) recorder.hear(batch, info.epoch);
-        });
-        signal_in.take([&](SignalBatch& batch, const bus::SampleInfo& info) {
-          if (info.alive) recorder.hear(batch, info.epoch);
-        });
+        const auto accept = [&](auto& batch, const bus::SampleInfo& info) { return recorder.hear(batch, info.epoch); };
+        process::hear(member, traffic_in, accept);
+        process::hear(member, signal_in, accept);
         recorder.close_if_last(next);
         recorder.show_if_idle();
       },

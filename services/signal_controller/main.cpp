@@ -21,7 +21,7 @@ int run(int argc, char** argv) {
   if (!created) return process::report_start(created.error(), process::kExitAborted);
   process::Member& member = *created.value();
   bus::Writer<SignalBatch> signals(member.participant());
-  member.faces(Topic::kSignal, signals, true);
+  member.faces(Topic::kSignal, signals);
 
   const auto welcome = member.join();
   if (!welcome) return process::report_start(welcome.error(), process::kExitUsage);
@@ -36,19 +36,19 @@ int run(int argc, char** argv) {
   std::vector<Edge<RequestBatch>> requests;
   if (actuation) {
     requests_in.emplace(member.participant());
-    member.faces(Topic::kRequest, *requests_in, false);
+    member.faces(Topic::kRequest, *requests_in);
     requests.assign(scenario::protocol(scenario.value()).rsus, Edge<RequestBatch>(kStepBefore));
   }
-  const auto checked = [&](const Expected<Done>& done) {
-    if (!done) process::give_up(member, role, done.error());
-  };
   SignalBatch batch;
   process::run_steps(
       member,
       [&] {
         if (!requests_in) return;
-        requests_in->take([&](RequestBatch& asked, const bus::SampleInfo& info) {
-          if (info.alive && asked.rsu < requests.size()) checked(requests[asked.rsu].accept(info.epoch, asked));
+        process::hear(member, *requests_in, [&](RequestBatch& asked, const bus::SampleInfo& info) -> Expected<Done> {
+          if (rsu_role(asked.rsu) != member.role_of(info.producer)) {
+            return Error{"", "says it is of " + rsu_role(asked.rsu)};
+          }
+          return requests.at(asked.rsu).accept(info.epoch, asked);
         });
       },
       [&](Step k) {
@@ -58,7 +58,7 @@ int run(int argc, char** argv) {
       },
       [&](Step k) {
         for (Edge<RequestBatch>& edge : requests) {
-          if (const RequestBatch* asked = edge.take(k)) checked(node.hear(k, *asked));
+          if (const RequestBatch* asked = edge.take(k)) node.hear(k, *asked);
         }
         if (scenario::apply(scenario.value(), member.due(k))) {
           node.use_plan(scenario::signal_plan(scenario.value()).value(), k);

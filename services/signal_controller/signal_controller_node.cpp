@@ -20,18 +20,14 @@ void SignalControllerNode::use_plan(const SignalPlan& plan, Step k) {
   schedule_.change(plan, k + promise_);
 }
 
-Expected<Done> SignalControllerNode::hear(Step k, const RequestBatch& requests) {
-  LUKOU_EXPECT(actuated_.has_value());
-  if (requests.lanes.size() != requests.lifetime.size()) {
-    return Error{"topic lukou/request", "the columns of rsu" + std::to_string(requests.rsu) + " differ in length"};
-  }
-  if (requests.lanes.empty()) return Done{};
+void SignalControllerNode::hear(Step k, const RequestBatch& requests) {
+  LUKOU_EXPECT(actuated_.has_value() && requests.lanes.size() == requests.lifetime.size());
+  if (requests.lanes.empty()) return;
   actuated_->desk.take({.rsu = requests.rsu,
                         .asked = requests.step,
                         .lanes = requests.lanes.back(),
                         .lifetime = requests.lifetime.back()},
                        k);
-  return Done{};
 }
 
 bool SignalControllerNode::step(Step k, SignalBatch& batch) {

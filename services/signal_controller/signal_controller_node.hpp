@@ -22,8 +22,8 @@ class SignalControllerNode {
   /// after step k + promise.
   void use_plan(const SignalPlan& plan, Step k);
   /// What an RSU asked for in its step k - 1, before step(k); the RSUs in the order of their indices. Of several
-  /// requests the last one counts. Requires an actuation. Errors: columns of unequal length.
-  Expected<Done> hear(Step k, const RequestBatch& requests);
+  /// requests the last one counts. Requires an actuation, and columns of one length (flaw_of).
+  void hear(Step k, const RequestBatch& requests);
   /// Executes step k. Returns true if `batch` was filled and is to be published.
   bool step(Step k, SignalBatch& batch);
 

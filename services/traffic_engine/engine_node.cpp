@@ -124,7 +124,7 @@ Expected<Done> EngineNode::step(Step k, const SignalBatch* new_signal, std::span
 
   report(engine_, k, traffic);
   report_fates(traffic);
-  if (auto done = report_reception(roadside, traffic); !done) return done;
+  report_reception(roadside, traffic);
   for (const RoadsideBatch* batch : roadside) {
     if (batch == nullptr) continue;
     if (auto done = report_uplink(*batch, traffic); !done) return done;
@@ -318,21 +318,14 @@ void EngineNode::report_fates(TrafficBatch& traffic) const {
   }
 }
 
-Expected<Done> EngineNode::report_reception(std::span<const RoadsideBatch* const> roadside,
-                                            TrafficBatch& traffic) const {
-  if (!config_.radio.modelled) return Done{};
+void EngineNode::report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const {
+  if (!config_.radio.modelled) return;
   traffic.reception.add(Direction::kDownlink, FrameKind::kRsc, tally_);
   if (between_cars_.drawn()) {
     traffic.reception.add(Direction::kVehicleToVehicle, FrameKind::kBsm, between_cars_.tally());
   }
-  for (const RoadsideBatch* batch : roadside) {
-    if (batch == nullptr) continue;
-    if (!batch->reception.well_formed()) {
-      return Error{"roadside", "the reception report of rsu" + std::to_string(batch->rsu) + " has broken columns"};
-    }
-    traffic.reception.add(batch->reception);
-  }
-  return Done{};
+  for (const RoadsideBatch* batch : roadside)
+    if (batch != nullptr) traffic.reception.add(batch->reception);
 }
 
 Expected<Done> EngineNode::report_uplink(const RoadsideBatch& batch, TrafficBatch& traffic) const {

@@ -74,11 +74,11 @@ class EngineNode {
   /// Takes the advice that has reached its car by `now`.
   void deliver(Step now);
   void report_fates(TrafficBatch& traffic) const;
+  void report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const;
   /// What an RSU heard of the frames that cars sent in the step before.
   Expected<Done> report_uplink(const RoadsideBatch& batch, TrafficBatch& traffic) const;
   /// What a full run log holds of this step beside the cars.
   static void report_frames(std::span<const RoadsideBatch* const> roadside, const AirBatch& air, TrafficBatch& traffic);
-  Expected<Done> report_reception(std::span<const RoadsideBatch* const> roadside, TrafficBatch& traffic) const;
 
   EngineConfig config_;  ///< as it is in force
   traffic::Engine engine_;

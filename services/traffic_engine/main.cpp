@@ -26,10 +26,10 @@ int run(int argc, char** argv) {
   bus::Writer<AirBatch> air_out(member.participant());
   bus::Reader<SignalBatch> signal_in(member.participant());
   bus::Reader<RoadsideBatch> roadside_in(member.participant());
-  member.faces(Topic::kTraffic, traffic_out, true);
-  member.faces(Topic::kAir, air_out, true);
-  member.faces(Topic::kSignal, signal_in, false);
-  member.faces(Topic::kRoadside, roadside_in, false);
+  member.faces(Topic::kTraffic, traffic_out);
+  member.faces(Topic::kAir, air_out);
+  member.faces(Topic::kSignal, signal_in);
+  member.faces(Topic::kRoadside, roadside_in);
 
   const auto welcome = member.join();
   if (!welcome) return process::report_start(welcome.error(), process::kExitUsage);
@@ -58,15 +58,14 @@ int run(int argc, char** argv) {
   process::run_steps(
       member,
       [&] {
-        signal_in.take([&](SignalBatch& batch, const bus::SampleInfo& info) {
-          if (!info.alive) return;
-          if (auto done = signal.accept(info.epoch, batch); !done) process::give_up(member, role, done.error());
+        process::hear(member, signal_in, [&](SignalBatch& batch, const bus::SampleInfo& info) {
+          return signal.accept(info.epoch, batch);
         });
-        roadside_in.take([&](RoadsideBatch& batch, const bus::SampleInfo& info) {
-          if (!info.alive || batch.rsu >= roadside.size()) return;
-          if (auto done = roadside[batch.rsu].accept(info.epoch, batch); !done) {
-            process::give_up(member, role, done.error());
+        process::hear(member, roadside_in, [&](RoadsideBatch& batch, const bus::SampleInfo& info) -> Expected<Done> {
+          if (rsu_role(batch.rsu) != member.role_of(info.producer)) {
+            return Error{"", "says it is of " + rsu_role(batch.rsu)};
           }
+          return roadside.at(batch.rsu).accept(info.epoch, batch);
         });
       },
       [&](Step k) {

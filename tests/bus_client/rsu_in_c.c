@@ -49,7 +49,7 @@ static dds_entity_t endpoint(struct client* c, const dds_topic_descriptor_t* typ
                              bool stream) {
   dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
-  dds_qset_history(qos, stream || !writer ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST, 512);
+  dds_qset_history(qos, !writer ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST, stream ? 4096 : 512);
   if (writer) dds_qset_writer_data_lifecycle(qos, false);
   if (writer && stream) dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
   dds_qset_userdata(qos, &c->self, sizeof c->self);

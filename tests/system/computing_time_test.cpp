@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/system/program.hpp"
 
@@ -67,6 +70,37 @@ TEST(ComputingTime, ThatIsDeclaredGivesTheSameBytesInEveryModeAndDelaysTheGuidan
   EXPECT_EQ(differing_files(folder / "one", folder / "two"), std::vector<std::string>{});
   EXPECT_NE(content(folder / "one" / "car.csv"), content(folder / "free" / "car.csv"));
   EXPECT_EQ(content(folder / "one" / "directives.textproto"), "");
+}
+
+TEST(ComputingTime, WithoutEndEndsWithTheRun) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "endless.py") << "import sys\nimport lukou\n\n"
+                                          "class Endless(lukou.RsuAlgorithm):\n"
+                                          "    def __init__(self, setup):\n        super().__init__()\n"
+                                          "    def on_step(self, heard, answer):\n"
+                                          "        while heard.step >= 20:\n            pass\n\n"
+                                          "sys.exit(lukou.run_rsu(Endless))\n";
+  const std::string rsu = "/usr/bin/python3 " + (folder / "endless.py").string();
+  const auto start = [&](const std::string& run, const std::string& out) {
+    return std::make_unique<Program>(
+        std::vector<std::string>{"run", "paper", "--quiet", "--duration", "60", "--rsu", rsu, "--run-id", run,
+                                 "--stall-limit", "3", "--out", folder / out},
+        std::vector<std::string>{"PYTHONPATH=" LUKOU_BUILD "/python"});
+  };
+  const std::string stalled = fresh_run_id();
+  const std::string orphaned = fresh_run_id();
+  const auto watched = start(stalled, "stalled");
+  const auto killed = start(orphaned, "orphaned");
+  for (int i = 0; i < 200 && content(folder / "orphaned" / "road.csv").find("\n19,") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  killed->signal(SIGKILL);
+  EXPECT_EQ(watched->wait(30.0), 3);
+  EXPECT_NE(watched->err().find("aborted: rsu0 has not finished step 20"), std::string::npos) << watched->err();
+  EXPECT_EQ(processes_of(stalled).size(), 0U);
+
+  // Nobody was left to kill the other one.
+  EXPECT_LT(seconds_until_gone(orphaned, 20.0), 13.0);
 }
 
 TEST(ComputingTime, ThatIsMeasuredCannotBeVerifiedOrReplayedWithoutIt) {

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -97,22 +98,30 @@ Finished lukou(const std::vector<std::string>& arguments) {
   return {code, program.out(), program.err()};
 }
 
-std::map<std::string, pid_t> processes_of(const std::string& run) {
-  // The children carry the run's id in their environment.
-  std::map<std::string, pid_t> found;
+std::vector<RunningProcess> processes_with(const std::string& variable) {
+  // As the kernel gives them: texts that end with a zero.
+  const auto texts = [](const fs::path& file) {
+    std::vector<std::string> list;
+    std::stringstream stream(content(file));
+    for (std::string text; std::getline(stream, text, '\0');) list.push_back(text);
+    return list;
+  };
+  std::vector<RunningProcess> found;
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    const std::string environment = content(entry.path() / "environ");
-    const std::string wanted = "LUKOU_RUN=" + run;
-    bool ours = false;
-    for (std::size_t at = 0; at < environment.size(); at = environment.find('\0', at) + 1) {
-      if (environment.compare(at, environment.find('\0', at) - at, wanted) == 0) ours = true;
-      if (environment.find('\0', at) == std::string::npos) break;
-    }
-    if (!ours) continue;
-    const std::string command = content(entry.path() / "cmdline");
-    found[fs::path(command.substr(0, command.find('\0'))).filename()] = std::stoi(name);
+    const auto environment = texts(entry.path() / "environ");
+    if (std::ranges::find(environment, variable) == environment.end()) continue;
+    found.push_back({std::stoi(name), texts(entry.path() / "cmdline")});
+  }
+  return found;
+}
+
+std::map<std::string, pid_t> processes_of(const std::string& run) {
+  // The children carry the run's id in their environment.
+  std::map<std::string, pid_t> found;
+  for (const RunningProcess& process : processes_with("LUKOU_RUN=" + run)) {
+    if (!process.command.empty()) found[fs::path(process.command.front()).filename()] = process.pid;
   }
   return found;
 }

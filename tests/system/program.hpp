@@ -55,6 +55,12 @@ struct Finished {
 };
 Finished lukou(const std::vector<std::string>& arguments);
 
+struct RunningProcess {
+  pid_t pid = -1;
+  std::vector<std::string> command;  ///< program and arguments
+};
+/// Processes with this variable ("NAME=value") in their environment: whom a process started with it, and so on.
+std::vector<RunningProcess> processes_with(const std::string& variable);
 /// Pids of the processes that belong to the run, by program name ("lukou-clock"); the launcher is not among them.
 std::map<std::string, pid_t> processes_of(const std::string& run);
 /// Waits until the recorder has recorded step `step`; false if that takes more than 30 s.

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "common/process/environment.hpp"
 #include "services/lukou/launch/cores.hpp"
 
 namespace lukou::launch {
@@ -22,7 +23,7 @@ constexpr int kSshFailed = 255;
 
 /// In the child, between fork and exec. Ends it on failure.
 [[noreturn]] void become(const ChildSpec& spec, pid_t parent, int input) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_PDEATHSIG, process::launcher_died_signal());
   if (getppid() != parent) _exit(127);  // died meanwhile
   setpgid(0, 0);
   if (spec.core) stay_on(*spec.core);

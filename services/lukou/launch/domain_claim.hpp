@@ -12,7 +12,7 @@ namespace lukou::launch {
 /// socket, so that two launchers never get the same and the kernel frees it when the launcher dies, however it dies.
 class DomainClaim {
  public:
-  /// The lowest free id in [0, 100]. `run` is published with it for `lukou ctl list`; its domain counts not.
+  /// The lowest free id in [0, 100]. `run` is published with it: process::list_runs(); its domain counts not.
   static Expected<DomainClaim> lowest_free(process::ListedRun run);
   DomainClaim(DomainClaim&& other) noexcept;
   DomainClaim& operator=(DomainClaim&& other) noexcept;

@@ -66,6 +66,10 @@ RunReport finish_result(const RunRequest& request, const std::filesystem::path& 
                                   .culprit = end.text};
     if (auto done = results::repair(folder, facts); !done) process::log_error(done.error().text());
   }
+  if (end.foreign_samples > 0) {
+    process::log_warning(std::to_string(end.foreign_samples) +
+                         " samples came from strangers on the bus and were ignored; operator.log names them");
+  }
   const auto inspected = results::inspect(folder);
   const results::Inspection inspection = inspected ? inspected.value() : results::Inspection{};
   RunReport report;
@@ -82,7 +86,8 @@ RunReport finish_result(const RunRequest& request, const std::filesystem::path& 
                                          {"wall_s", report.wall_s},
                                          {"steps_per_s", steps_per_s},
                                          {"real_time_factor", steps_per_s / static_cast<double>(kStepsPerSecond)},
-                                         {"start_up_s", report.start_up_s}};
+                                         {"start_up_s", report.start_up_s},
+                                         {"foreign_samples", end.foreign_samples}};
   if (auto done = results::write_file(folder / "timing.json", results::json_text(timing)); !done) {
     process::log_error(done.error().text());
   }

@@ -20,6 +20,7 @@ struct RunEnd {
   std::string text;
   double wall_s = 0.0;
   double start_up_s = 0.0;
+  std::uint64_t foreign_samples = 0;  ///< ignored, since nobody of the run had sent them
 };
 
 /// Completes the folder (manifest if the recorder could not, timing.json) and derives the exit code.

@@ -60,7 +60,7 @@ class InProcessRun {
   Expected<Done> step(Step k) {
     if (auto done = follow_hearings(k); !done) return done;
     if (auto done = apply_directives(k); !done) return done;
-    if (auto done = hand_over_requests(k); !done) return done;
+    hand_over_requests(k);
     SignalBatch batch;
     if (controller_->step(k, batch)) {
       recent_signals_.push_back(batch);
@@ -98,13 +98,10 @@ class InProcessRun {
   }
 
   /// The requests of step k - 1 to the controller.
-  Expected<Done> hand_over_requests(Step k) {
-    if (!actuation_) return Done{};
-    for (const RsuLife& life : rsus_) {
-      if (!is_heard(life, k)) continue;
-      if (auto done = controller_->hear(k, life.node->request()); !done) return done;
-    }
-    return Done{};
+  void hand_over_requests(Step k) {
+    if (!actuation_) return;
+    for (const RsuLife& life : rsus_)
+      if (is_heard(life, k)) controller_->hear(k, life.node->request());
   }
 
   Expected<std::unique_ptr<RsuAlgorithm>> algorithm_of(const RsuConfig& config) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include "common/process/environment.hpp"
 #include "common/process/log.hpp"
@@ -23,8 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPoll_s = 0.05;
-constexpr double kLeave_s = 3.0;  ///< after the clock has left, until SIGTERM
-constexpr double kKill_s = 1.5;   ///< after SIGTERM, until SIGKILL
+constexpr double kLeave_s = 3.0;         ///< after the clock has left, until SIGTERM
+constexpr double kKill_s = 1.5;          ///< after SIGTERM, until SIGKILL
+constexpr double kClockSilent_s = 5.0;   ///< it speaks ten times a second, and its members wait 2 s for it
+constexpr double kClockStarts_s = 15.0;  ///< until its first word
 
 /// Programs lie beside this one.
 fs::path program(const std::string& name) { return fs::read_symlink("/proc/self/exe").parent_path() / name; }
@@ -44,20 +47,25 @@ std::optional<int> core_for(const RunRequest& request, int domain) {
 /// One run of processes, from the first fork to the last exit.
 class Session {
  public:
-  Session(const RunRequest& request, const Listener& listener, fs::path folder, DomainClaim claim, bus::Address address)
+  Session(const RunRequest& request, const Listener& listener, fs::path folder, DomainClaim claim, bus::Address address,
+          Incarnation clock)
       : request_(request),
         listener_(listener),
         folder_(std::move(folder)),
         claim_(std::move(claim)),
         address_(std::move(address)),
+        clock_(clock),
         protocol_(scenario::protocol(request.scenario)) {}
 
   RunReport run() {
     begun_s_ = process::wall_s();
     if (auto started = start_all(); !started) return failed(process::kExitInternal, started.error());
-    auto client = process::RunClient::attach(address_, request_.observe);
+    auto client = process::RunClient::attach(address_, request_.observe, self_);
     if (!client) return failed(process::kExitAborted, client.error());
     client_ = std::move(client).value();
+    client_->on_control([this](const Control& said) {
+      if (said.kind == Control::Kind::kFence) fenced_.insert(rsu_role(said.rsu));
+    });
     if (request_.console != nullptr) request_.console->show(address_);
     while (!children_.empty()) {
       client_->poll(kPoll_s);
@@ -65,6 +73,7 @@ class Session {
       follow_console();
       for (const ChildExit& ended : children_.reap()) on_exit(ended);
       follow_state();
+      watch_clock();
       end_stragglers();
     }
     return report();
@@ -84,7 +93,10 @@ class Session {
       spec.command.insert(spec.command.end(), more.begin(), more.end());
       return start(std::move(spec));
     };
-    std::vector<std::string> clock = {"--scenario", (folder_ / "scenario.textproto").string(), "--pace", request_.pace};
+    std::vector<std::string> clock = {"--scenario",    (folder_ / "scenario.textproto").string(),
+                                      "--pace",        request_.pace,
+                                      "--incarnation", bus::text_of(clock_),
+                                      "--launcher",    bus::text_of(self_)};
     if (request_.start_paused) clock.emplace_back("--wait");
     if (!request_.stall_limit_s.empty()) clock.insert(clock.end(), {"--stall-limit", request_.stall_limit_s});
     if (!request_.replay.empty()) clock.insert(clock.end(), {"--replay-directives", request_.replay.string()});
@@ -154,10 +166,25 @@ class Session {
       return;
     }
     if (ended.role == kRecorderRole && ended.code == process::kExitIo && !ended.signalled) io_failed_ = true;
+    // One that the run goes on without leaves late; by then another may have its role.
+    if (fenced_.contains(ended.role)) return;
     if (!over() && culprit_.empty()) {
       lost_.push_back(ended);
       client_->report_lost(ended.role, ended.text());
     }
+  }
+
+  /// The clock watches everybody, its launcher watches it: one that does not run any more is ended, and is the culprit.
+  void watch_clock() {
+    const double now_s = process::wall_s();
+    // What stops this process makes the clock look silent: Ctrl-Z, a suspended machine.
+    if (now_s - watched_s_ > 1.0) awake_s_ = now_s;
+    watched_s_ = now_s;
+    if (!request_.watchdog || over() || clock_gone_s_ != 0.0 || clock_stands_) return;
+    const double silent_s = std::min(client_->clock_silent_s(), now_s - awake_s_);
+    if (silent_s < (client_->state() ? kClockSilent_s : kClockStarts_s)) return;
+    clock_stands_ = true;
+    children_.signal(std::string(kClockRole), SIGKILL);
   }
 
   [[nodiscard]] bool over() const {
@@ -234,18 +261,20 @@ class Session {
     end.interrupted_by = interrupted_;
     end.io_failed = io_failed_;
     end.anomaly = clock_exit_.code == process::kExitAnomaly && !clock_exit_.signalled;
-    if (over_s_ == 0.0 && !clock_exit_.well()) {
+    if (over_s_ == 0.0 && !clock_exit_.well() && interrupted_ == 0) {
       culprit_ = clock_exit_.signalled || lost_.empty() ? std::string(kClockRole) : lost_.front().role;
-      text_ = clock_exit_.text();
+      text_ = clock_stands_ ? "did not run any more" : clock_exit_.text();
     }
-    // What the launcher saw of the culprit says more than the clock's guess.
+    // What the launcher saw of the culprit says more than that nobody hears it any more.
+    const bool guessed = text_.starts_with("is gone") || text_.starts_with("left");
     for (const ChildExit& lost : lost_)
-      if (lost.role == culprit_) text_ = lost.text();
+      if (lost.role == culprit_ && (lost.signalled || guessed)) text_ = lost.text();
     end.culprit = culprit_;
     end.text = text_;
     // A short run may be over before the clock is heard here.
     end.wall_s = (over_s_ != 0.0 ? over_s_ : process::wall_s()) - (running_s_ != 0.0 ? running_s_ : begun_s_);
     end.start_up_s = running_s_ != 0.0 ? running_s_ - begun_s_ : 0.0;
+    end.foreign_samples = client_->foreign_samples() + (client_->state() ? client_->state()->foreign_samples : 0);
     RunReport report = finish_result(request_, folder_, end);
     report.restart = restart_;
     return report;
@@ -266,11 +295,14 @@ class Session {
   fs::path folder_;
   DomainClaim claim_;
   bus::Address address_;
+  Incarnation clock_;
+  Incarnation self_ = process::new_incarnation();
   scenario::Protocol protocol_;
   std::unique_ptr<process::RunClient> client_;
   Children children_;
   ChildExit clock_exit_;
   std::vector<ChildExit> lost_;
+  std::set<std::string> fenced_;  ///< roles of children without which the run goes on
   std::string culprit_;
   std::string text_;
   bool io_failed_ = false;
@@ -280,6 +312,9 @@ class Session {
   double running_s_ = 0.0;
   double over_s_ = 0.0;
   double said_s_ = 0.0;
+  double watched_s_ = 0.0;     ///< when the clock was looked after last ...
+  double awake_s_ = 0.0;       ///< ... and since when without a gap
+  bool clock_stands_ = false;  ///< ended because it had not run any more
   double interrupted_s_ = 0.0;
   double clock_gone_s_ = 0.0;
   double terminated_s_ = 0.0;
@@ -310,13 +345,15 @@ RunReport run_processes(const RunRequest& request, const Listener& listener) {
   if (!folder) return refuse(process::kExitIo, folder.error());
   const std::string run = request.run_id.empty() ? run_id(request) : request.run_id;
   const Reach& reach = request.reach;
-  auto claim = DomainClaim::lowest_free({.run = run, .secured = !reach.keys.empty(), .hosts = !reach.peers.empty()});
+  const Incarnation clock = process::new_incarnation();
+  auto claim = DomainClaim::lowest_free(
+      {.run = run, .clock = clock, .secured = !reach.keys.empty(), .hosts = !reach.peers.empty()});
   if (!claim) return refuse(process::kExitAborted, claim.error());
   const bus::Address address{.domain = claim.value().domain(),
                              .run = run,
                              .peers = reach.peers,
                              .identity = reach.identity(std::string(kObserverRole))};
-  Session session(request, listener, folder.value(), std::move(claim).value(), address);
+  Session session(request, listener, folder.value(), std::move(claim).value(), address, clock);
   return session.run();
 }
 

@@ -56,7 +56,7 @@ void Stage::say(const Player& player, Up message) {
 
 void Stage::join(const Player& player) { say(player, {.kind = Up::Kind::kJoin}); }
 
-bool Stage::everybody_is_matched() const {
+bool Stage::everybody_is_matched() {
   const auto heard = up_->matched();
   const auto reached = control_->matched();
   const auto air = air_->matched();

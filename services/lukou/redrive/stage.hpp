@@ -47,7 +47,7 @@ class Stage {
   Stage() = default;
   void join(const Player& player);
   void say(const Player& player, Up message);
-  [[nodiscard]] bool everybody_is_matched() const;
+  [[nodiscard]] bool everybody_is_matched();
   void send();
 
   std::unique_ptr<bus::Participant> clock_;

@@ -58,7 +58,7 @@ class Projector {
 
   void show() {
     const double now_s = process::wall_s();
-    const RunState state = player_.state(run_);
+    const RunState state = this->state();
     if (state.phase != told_.phase || now_s - told_s_ > kStateEvery_s) {
       states_.write(state);
       told_ = state;
@@ -72,12 +72,19 @@ class Projector {
   }
 
   void finish() {
-    states_.write(player_.state(run_));
+    states_.write(state());
     control_.finish(kLastWords_s);
     states_.finish(kLastWords_s);
   }
 
  private:
+  /// The pictures come from here, too.
+  [[nodiscard]] RunState state() const {
+    RunState state = player_.state(run_);
+    state.recorder = self_;
+    return state;
+  }
+
   void answer(const Up& request) {
     Control reply{.kind = Control::Kind::kReply,
                   .clock = self_,

@@ -35,9 +35,9 @@ int joined_run(int argc, char** argv, const MakeScenarioAlgorithm& make) {
   bus::Writer<RoadsideBatch> roadside_out(member.participant());
   bus::Reader<AirBatch> air_in(member.participant());
   bus::Reader<SignalBatch> signal_in(member.participant());
-  member.faces(Topic::kRoadside, roadside_out, true);
-  member.faces(Topic::kAir, air_in, false);
-  member.faces(Topic::kSignal, signal_in, false);
+  member.faces(Topic::kRoadside, roadside_out);
+  member.faces(Topic::kAir, air_in);
+  member.faces(Topic::kSignal, signal_in);
 
   const auto welcome = member.join();
   if (!welcome) return process::report_start(welcome.error(), process::kExitUsage);
@@ -51,7 +51,7 @@ int joined_run(int argc, char** argv, const MakeScenarioAlgorithm& make) {
   std::optional<bus::Writer<RequestBatch>> requests_out;
   if (config.value().actuation) {
     requests_out.emplace(member.participant());
-    member.faces(Topic::kRequest, *requests_out, true);
+    member.faces(Topic::kRequest, *requests_out);
   }
   RsuNode node(config.value(), std::move(algorithm).value());
   node.measure_with(process::wall_s);
@@ -73,11 +73,10 @@ int joined_run(int argc, char** argv, const MakeScenarioAlgorithm& make) {
           checked(air.begin(*member.first_step()));
           checked(signal.begin(*member.first_step()));
         }
-        air_in.take([&](AirBatch& batch, const bus::SampleInfo& info) {
-          if (info.alive) checked(air.accept(info.epoch, batch));
-        });
-        signal_in.take([&](SignalBatch& batch, const bus::SampleInfo& info) {
-          if (info.alive) checked(signal.accept(info.epoch, batch));
+        process::hear(member, air_in,
+                      [&](AirBatch& batch, const bus::SampleInfo& info) { return air.accept(info.epoch, batch); });
+        process::hear(member, signal_in, [&](SignalBatch& batch, const bus::SampleInfo& info) {
+          return signal.accept(info.epoch, batch);
         });
       },
       [&](Step k) {

@@ -58,7 +58,7 @@ TEST(CycloneConfig, AppendsTheUsersWordBehindOursAndBeforeTheTag) {
 TEST(CycloneConfig, KeepsLargeBatchesAndDeadReadersFromBlockingARun) {
   for (const std::string users : {"", "file:///etc/cyclone.xml"}) {
     const std::string config = plain("r", users);
-    EXPECT_NE(config.find("<WhcHigh>16MB</WhcHigh>"), std::string::npos);
+    EXPECT_NE(config.find("<WhcHigh>1GB</WhcHigh>"), std::string::npos);
     EXPECT_NE(config.find("<FragmentSize>64000B</FragmentSize>"), std::string::npos);
     EXPECT_NE(config.find("<WriterLingerDuration>0s</WriterLingerDuration>"), std::string::npos);
     EXPECT_NE(config.find("<LeaseDuration>60s</LeaseDuration>"), std::string::npos);

@@ -85,8 +85,8 @@ inline auto members(Up& m) {
 }
 
 inline auto members(RunState& m) {
-  auto& [run, phase, granted, recorded, end, pace, text, culprit] = m;
-  return std::tie(run, phase, granted, recorded, end, pace, text, culprit);
+  auto& [run, phase, granted, recorded, end, pace, text, culprit, recorder, foreign] = m;
+  return std::tie(run, phase, granted, recorded, end, pace, text, culprit, recorder, foreign);
 }
 
 inline auto members(FigureColumns& f) {

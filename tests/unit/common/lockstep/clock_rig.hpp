@@ -18,6 +18,7 @@ inline constexpr Incarnation kController = 11;
 inline constexpr Incarnation kRecorder = 12;
 inline constexpr Incarnation kRsu = 20;
 inline constexpr Incarnation kOperator = 90;
+inline constexpr Incarnation kLauncher = 91;
 
 /// A clock with the members' side of the talk. Wall time is `now_s`; nothing happens but what a test does.
 class ClockRig {
@@ -26,6 +27,7 @@ class ClockRig {
     ClockSettings settings;
     settings.run = "paper-1";
     settings.incarnation = kClock;
+    settings.launcher = kLauncher;
     settings.scenario_text = "run { }";
     settings.scenario_hash = "abc123";
     settings.rsus = 1;

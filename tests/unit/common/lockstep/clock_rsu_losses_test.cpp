@@ -48,7 +48,7 @@ TEST(ClockRsuContinue, FencesOneThatSaysGoodBye) {
   rig.up({.kind = Up::Kind::kLeave, .incarnation = kRsu, .step = 200});
   EXPECT_EQ(rig.the(Control::Kind::kFence).epoch, 1U);
   rig.core.gone(rig.now_s, kRsu);
-  rig.up({.kind = Up::Kind::kLost, .role = "rsu0", .text = "ended"});
+  rig.up({.kind = Up::Kind::kLost, .incarnation = kLauncher, .role = "rsu0", .text = "ended"});
   EXPECT_TRUE(rig.heard().empty()) << "the same loss told again";
 }
 
@@ -169,6 +169,33 @@ TEST(ClockRsuWait, StillAnswersTheOperator) {
   ClockRig rig = running(RsuLossPolicy::kWait);
   rig.core.gone(rig.now_s, kRsu);
   EXPECT_EQ(rig.ask("pause"), "pauses at step 300 (30.0 s)");
+}
+
+TEST(ClockRsuWait, EndsWithoutTheRsuWhereTheOperatorSaysSo) {
+  ClockRig rig = running(RsuLossPolicy::kWait);
+  rig.core.gone(rig.now_s, kRsu);
+  rig.all_did(300);
+  rig.idle(120.0);
+  static_cast<void>(rig.heard());
+  EXPECT_EQ(rig.ask("interrupt"), "ends at step 300 (30.0 s)");
+  ASSERT_EQ(rig.others.size(), 1U);
+  EXPECT_EQ(rig.others[0].kind, Control::Kind::kGrant);
+  EXPECT_EQ(rig.others[0].through, 300);
+  EXPECT_TRUE(rig.others[0].last);
+  EXPECT_EQ(rig.others[0].text, "interrupted");
+  rig.close("", 300);
+  EXPECT_EQ(rig.core.outcome()->kind, RunOutcome::Kind::kStopped);
+}
+
+TEST(ClockRsuWait, GoesOnWaitingIfItIsToEndLater) {
+  ClockRig rig = running(RsuLossPolicy::kWait);
+  rig.core.gone(rig.now_s, kRsu);
+  rig.all_did(300);
+  static_cast<void>(rig.heard());
+  EXPECT_EQ(rig.ask("stop at 60"), "ends at step 600 (60.0 s)");
+  rig.idle(1.0);
+  EXPECT_TRUE(rig.others.empty());
+  EXPECT_TRUE(rig.heard().empty());
 }
 
 }  // namespace

@@ -94,11 +94,35 @@ TEST(ClockStart, RefusesARoleThatIsTakenOrUnknown) {
   for (const char* role : {"rsu1", "clock", "observer", ""}) {
     rig.join(34, role);
     EXPECT_EQ(rig.the(Control::Kind::kRefuse).to, 34U) << role;
+    rig.idle(1.0);
   }
   rig.everybody_joins();
   static_cast<void>(rig.heard());
   rig.join(35, "rsu0");
   EXPECT_EQ(rig.the(Control::Kind::kRefuse).text, "role `rsu0` is unknown or taken; vacant: none");
+}
+
+TEST(ClockStart, RefusesOnceASecondHoweverOftenItIsAsked) {
+  // Everybody hears what is said to one: a stranger that asks without end must not make the clock talk without end.
+  ClockRig rig;
+  for (int n = 0; n < 5000; ++n) rig.join(34, "traffic-engin");
+  EXPECT_EQ(rig.heard(Control::Kind::kRefuse).size(), 1U);
+  rig.idle(1.0);
+  rig.join(34, "traffic-engin");
+  rig.join(35, "traffic-engin");
+  EXPECT_EQ(rig.heard(Control::Kind::kRefuse).size(), 2U) << "again, and another";
+}
+
+TEST(ClockStart, SaysWhoRecordsAndHowMuchTheMembersIgnored) {
+  ClockRig rig;
+  EXPECT_EQ(rig.core.state().recorder, 0U);
+  rig.form();
+  EXPECT_EQ(rig.core.state().recorder, kRecorder);
+  rig.up({.kind = Up::Kind::kProgress, .incarnation = kEngine, .number = 7, .step = 1});
+  rig.up({.kind = Up::Kind::kProgress, .incarnation = kRsu, .number = 3, .step = 1});
+  rig.up({.kind = Up::Kind::kProgress, .incarnation = kEngine, .number = 9, .step = 2});
+  rig.up({.kind = Up::Kind::kProgress, .incarnation = 777, .number = 1000, .step = 2});
+  EXPECT_EQ(rig.core.state().foreign_samples, 12U) << "each says its own sum, a stranger's word counts for nothing";
 }
 
 TEST(ClockStart, HoldsAtStepZeroIfItIsToldToWait) {

