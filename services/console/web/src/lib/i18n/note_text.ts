@@ -17,6 +17,6 @@ export function noteText({ kind, text: whole }: Note): string {
     case 'directive':
       return text;
     default:
-      return said(text);
+      return said(text.replace(/^\S+={…}: /, ''));
   }
 }
