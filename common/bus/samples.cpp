@@ -141,7 +141,7 @@ void view_columns(Plain& plain, Sample& sample, Move move) {
   move(plain.radio_kind, sample.radio_kind), move(plain.radio_sent, sample.radio_sent);
   move(plain.radio_heard, sample.radio_heard), move(plain.radio_lost, sample.radio_lost);
   move(plain.radio_latency_ms, sample.radio_latency_ms), move(plain.uplink, sample.uplink);
-  move(plain.heard_step, sample.heard_step);
+  move(plain.heard_step, sample.heard_step), move(plain.advice, sample.advice);
 }
 
 constexpr auto kLend = [](const auto& column, auto& sequence) { lend_column(column, sequence); };

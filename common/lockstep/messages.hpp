@@ -145,8 +145,9 @@ struct View {
       radio_lost;  ///< seven a row: random, burst, range, path loss, collision, half duplex, outage
   std::vector<double> radio_latency_ms;  ///< mean of what was heard; not a number: nothing was
   // Two more columns of the cars: what became of their messages to the roadside.
-  std::vector<std::uint8_t> uplink;  ///< of its newest: 0 heard, 1 + LossCause lost; 255 = it has sent none
-  std::vector<Step> heard_step;      ///< when the newest that an RSU has heard was sent; -1 = none was
+  std::vector<std::uint8_t> uplink;   ///< of its newest: 0 heard, 1 + LossCause lost; 255 = it has sent none
+  std::vector<Step> heard_step;       ///< when the newest that an RSU has heard was sent; -1 = none was
+  std::vector<std::uint32_t> advice;  ///< by AdviceFate (23): each since step 0, by its last fate
 
   /// Whether each group's columns have one length, and those of lanes, approaches and figures theirs.
   [[nodiscard]] bool well_formed() const;

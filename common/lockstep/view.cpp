@@ -17,6 +17,7 @@ bool View::well_formed() const {
   constexpr std::size_t kApproaches = 4;
   constexpr std::size_t kLanes = 12;
   constexpr std::size_t kCauses = 7;
+  constexpr std::size_t kAdviceFates = 23;
   const FigureColumns& f = figures;
   return all_are(kGroups, {f.arrived.size(), f.waiting.size(), f.in_system.size(), f.left.size(), f.standing.size(),
                            f.stops.size(), f.throughput_veh_per_h.size(), f.stops_per_vehicle.size(),
@@ -29,7 +30,7 @@ bool View::well_formed() const {
          (heads.empty() || heads.size() == kLanes) && all_are(heads.size(), {change_step.size(), next_aspect.size()}) &&
          all_are(radio_direction.size(),
                  {radio_kind.size(), radio_sent.size(), radio_heard.size(), radio_latency_ms.size()}) &&
-         radio_lost.size() == kCauses * radio_direction.size();
+         radio_lost.size() == kCauses * radio_direction.size() && all_are(kAdviceFates, {advice.size()});
 }
 
 }  // namespace lukou

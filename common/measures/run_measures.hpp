@@ -132,6 +132,7 @@ class RunMeasures {
   [[nodiscard]] std::uint64_t entered() const { return equipped_.entered + unequipped_.entered; }
   [[nodiscard]] std::uint64_t left() const { return equipped_.left_ever + unequipped_.left_ever; }
   [[nodiscard]] std::uint64_t collisions() const { return totals_.collisions; }
+  [[nodiscard]] const std::array<std::uint64_t, kAdviceFates>& advice_by_fate() const { return totals_.advice_by_fate; }
   [[nodiscard]] RunFigures figures() const;
   [[nodiscard]] RunNow now() const;
   /// Requires a car on the road.

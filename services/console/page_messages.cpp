@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/bus/batches.hpp"
 #include "common/lockstep/roster.hpp"
 #include "common/radio/reception_report.hpp"
 #include "console.pb.h"
@@ -20,6 +21,10 @@ constexpr double kClockSilent_s = 3.0;  ///< it speaks ten times a second
 constexpr std::array<const char*, 7> kCauses = {"random",    "burst",       "range", "path_loss",
                                                 "collision", "half_duplex", "outage"};
 constexpr std::size_t kDirections = 3;
+
+/// In the order of Statistics::overridden.
+constexpr std::array kOverrides = {AdviceFate::kChangedLimit, AdviceFate::kChangedGuard, AdviceFate::kChangedFollowing,
+                                   AdviceFate::kChangedRed, AdviceFate::kChangedDriver};
 
 std::string octets(const std::vector<std::uint8_t>& column) { return {column.begin(), column.end()}; }
 
@@ -133,6 +138,7 @@ Statistics statistics_of(const View& view) {
       loss.set_frames(sums[direction].lost[cause]);
     }
   }
+  for (const AdviceFate fate : kOverrides) statistics.add_overridden(view.advice[static_cast<std::size_t>(fate)]);
   return statistics;
 }
 

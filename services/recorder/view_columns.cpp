@@ -59,6 +59,8 @@ void fill_figures(View& view, const RunMeasures& measures) {
   for (const GroupNow* group : {&now.all, &now.equipped, &now.unequipped}) add(view.figures, *group);
   view.queue.clear();
   for (const LaneTotals& lane : measures.lanes()) view.queue.push_back(lane.standing_now);
+  view.advice.clear();
+  for (const std::uint64_t count : measures.advice_by_fate()) view.advice.push_back(static_cast<std::uint32_t>(count));
 }
 
 void fill_radio(View& view, std::span<const ReceptionFigures> last_second) {

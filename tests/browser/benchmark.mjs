@@ -112,6 +112,8 @@ async function memory(browser, run) {
   console.log('minutes at 100x: server, one page, the other [MB]; growth since minute 10 [MB/h]; pace');
   for (let minute = 0; minute <= minutes; ++minute) {
     if (minute > 0) await viewers[0].page.waitForTimeout(60_000);
+    const { phase } = viewers[0].heard.status;
+    if (phase !== 'running') throw new Error(`the run is ${phase} after minute ${minute}`);
     const now = [rss(), await heap(viewers[0]), await heap(viewers[1])];
     if (minute >= 10) now.forEach((value, i) => settled[i].push(value));
     const growth = minute > 12 ? settled.map((values) => slopePerHour(values).toFixed(2)).join(', ') : '-';
@@ -140,8 +142,9 @@ async function quickness(browser) {
   }
 }
 
+/** Without a watchdog: a machine with other work may hold a process up for longer than a watched run stands. */
 async function longRun(browser) {
-  const run = await startRun(['--pace', '100', '--duration', String(6000 * (minutes + 2))]);
+  const run = await startRun(['--no-watchdog', '--pace', '100', '--duration', String(6000 * (minutes + 2))]);
   try {
     await memory(browser, run);
   } finally {

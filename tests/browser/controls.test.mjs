@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 
-import { axeFindings, directives, launch, openPage, slideTo, startRun, stepOf, until } from './session.mjs';
+import { axeFindings, directives, launch, memberPid, openPage, slideTo, startRun, stepOf, until } from './session.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -272,7 +272,8 @@ describe('every view', { timeout: 240_000 }, () => {
   }
 
   test('has no control that Tab does not reach, and none without a name', async () => {
-    await page.locator('#picture').press('n'); // with a card
+    await page.locator('#picture').press('n'); // with a card, of a car that stays
+    run.ctl('pause');
     for (const key of ['1', '2', '3']) {
       await page.locator('#picture').press(key);
       await page.getByRole('tabpanel').first().waitFor();
@@ -300,5 +301,92 @@ describe('every view', { timeout: 240_000 }, () => {
     for (const role of ['button', 'slider', 'spinbutton', 'combobox', 'checkbox', 'textbox', 'tab']) {
       assert.equal(await page.getByRole(role, { name: /^\s*$/ }).count(), 0, `${role} without a name`);
     }
+  });
+});
+
+const otherLanguage = (page) => page.getByRole('button', { name: /^(中文|English)$/ }).click();
+
+/** In both languages and themes; ends as it began. */
+async function cleanEverywhere(page, what) {
+  for (const look of ['English light', 'English dark', 'Chinese dark', 'Chinese light']) {
+    assert.deepEqual(await axeFindings(page), [], `${what}, ${look}`);
+    if (look === 'English dark' || look === 'Chinese light') await otherLanguage(page);
+    else await page.locator('#picture').press('t');
+    await page.waitForTimeout(150);
+  }
+}
+
+describe('every state of a run is clean for axe-core in both languages:', { timeout: 240_000 }, () => {
+  let run, page, heard, errors, close;
+  before(async () => {
+    run = await startRun(['--pace', '10', '--set', 'run.on_rsu_loss=CONTINUE']);
+    ({ page, heard, errors, close } = await openPage(browser, run.url, { colorScheme: 'light' }));
+    await until(async () => (await stepOf(page)) > 300, '30 s simulated');
+  });
+  after(async () => {
+    await close?.();
+    await run?.end();
+  });
+
+  test('a plan that was refused', async () => {
+    await page.getByRole('tab', { name: 'Signals' }).click();
+    const panel = page.getByRole('tabpanel');
+    await panel.locator('[data-lane=NC]').click();
+    await panel.getByRole('button', { name: 'Set green behind' }).click();
+    await panel.getByRole('button', { name: 'Apply' }).click();
+    await panel.getByRole('alert').getByText('crossing streams').waitFor();
+    await cleanEverywhere(page, 'a refused plan');
+    await panel.getByRole('button', { name: 'Discard' }).click();
+  });
+
+  test('the question before control is taken from another', async () => {
+    const two = await openPage(browser, run.url, { colorScheme: 'light' });
+    for (const [take, taken] of [
+      ['Take control', 'You control'],
+      ['取得控制', '由您控制'],
+    ]) {
+      await two.page.getByRole('button', { name: take }).click();
+      await two.page.getByRole('dialog').waitFor();
+      assert.deepEqual(await axeFindings(two.page), [], take);
+      await two.page.keyboard.press('Escape');
+      await otherLanguage(two.page);
+      assert.equal(await two.page.getByText(taken).count(), 0);
+    }
+    await cleanEverywhere(two.page, 'one that only watches');
+    await two.close();
+  });
+
+  test('an RSU that was lost', async () => {
+    process.kill(memberPid(run, 'lukou-rsu'), 'SIGKILL');
+    // Whatever panel is open.
+    await page.getByRole('alert').getByText('Lost: rsu0').waitFor();
+    for (const key of ['1', '3']) {
+      await page.locator('#picture').press(key);
+      await cleanEverywhere(page, `a lost RSU, panel ${key}`);
+    }
+  });
+
+  test('a run that has ended', async () => {
+    await page.getByRole('button', { name: 'End', exact: true }).click();
+    await page.getByRole('dialog').getByRole('button', { name: 'End' }).click();
+    await until(() => heard.status.phase === 'ended', 'the end');
+    for (const key of ['1', '2', '3']) {
+      await page.locator('#picture').press(key);
+      await cleanEverywhere(page, `an ended run, panel ${key}`);
+    }
+    assert.deepEqual(errors, []);
+  });
+
+  test('a run that was aborted because its engine is gone', async (t) => {
+    const other = await startRun(['--pace', '10']);
+    t.after(() => other.end());
+    const viewer = await openPage(browser, other.url, { colorScheme: 'light' });
+    await until(async () => (await stepOf(viewer.page)) > 50, 'the run moves');
+    process.kill(memberPid(other, 'lukou-traffic-engine'), 'SIGKILL');
+    await until(() => viewer.heard.status.phase === 'aborted', 'aborted', 30_000);
+    await viewer.page.getByRole('alert').getByText('traffic-engine').waitFor();
+    await viewer.page.locator('#picture').press('3');
+    await cleanEverywhere(viewer.page, 'an aborted run');
+    await viewer.close();
   });
 });

@@ -401,6 +401,10 @@ describe('what goes wrong, and the end', { timeout: 150_000 }, () => {
     await tab(page, 'Log');
     await until(() => heard.events.some(({ kind }) => kind === 'lost'), 'the loss');
     await page.getByRole('listitem').filter({ hasText: 'rsu0' }).getByText('lost').first().waitFor();
+    await page.getByRole('alert').getByText('Lost: rsu0').waitFor();
+    const strip = page.getByRole('group', { name: 'Look back' });
+    await strip.getByText('lost rsu0').waitFor(); // the newest event, beside its mark
+    assert.equal(await strip.locator('rect.lost').count(), 1);
     const at = await stepOf(page);
     await until(async () => (await stepOf(page)) > at + 50, 'the run goes on without it');
     await close();

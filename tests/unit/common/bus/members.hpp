@@ -99,11 +99,12 @@ inline auto members(FigureColumns& f) {
 inline auto members(View& m) {
   auto& [step, figures, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed, acceleration,
          commanded, guidance, bound_by, missed, stood, advice, heads, change, next, direction, kind, sent, radio_heard,
-         lost, latency, uplink, heard_step] = m;
-  return std::tuple_cat(std::tie(step, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed,
-                                 acceleration, commanded, guidance, bound_by, missed, stood, advice, heads, change,
-                                 next, direction, kind, sent, radio_heard, lost, latency, uplink, heard_step),
-                        members(figures));
+         lost, latency, uplink, heard_step, advice_by_fate] = m;
+  return std::tuple_cat(
+      std::tie(step, queue, arrived, waiting, heard, vehicle, lane, state, equipped, position, speed, acceleration,
+               commanded, guidance, bound_by, missed, stood, advice, heads, change, next, direction, kind, sent,
+               radio_heard, lost, latency, uplink, heard_step, advice_by_fate),
+      members(figures));
 }
 
 }  // namespace lukou

@@ -16,6 +16,7 @@ inline View empty_road() {
   view.queue.resize(12);
   view.arrived.resize(4);
   view.waiting.resize(4);
+  view.advice.resize(23);
   return view;
 }
 

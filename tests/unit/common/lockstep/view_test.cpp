@@ -24,6 +24,7 @@ TEST(View, IsBrokenIfAnyColumnHasAnotherLength) {
   EXPECT_TRUE(broken([](View& v) { v.heads.resize(12); })) << "without their changes";
   EXPECT_TRUE(broken([](View& v) { v.heads.resize(5), v.change_step.resize(5), v.next_aspect.resize(5); }));
   EXPECT_TRUE(broken([](View& v) { v.radio_lost.resize(7); })) << "of no row";
+  EXPECT_TRUE(broken([](View& v) { v.advice.pop_back(); }));
 }
 
 }  // namespace

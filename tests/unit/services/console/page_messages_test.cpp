@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "console.pb.h"
 
@@ -27,6 +28,9 @@ View two_cars() {
   view.commanded_mps2 = {0.25, kNone}, view.guidance = {2, 0}, view.bound_by = {3, 1}, view.missed = {255, 11};
   view.standing_steps = {15, 0}, view.advice_step = {97, -1};
   view.uplink = {0, 255}, view.heard_step = {98, -1};
+  view.advice = {50, 1, 2, 3, 4};
+  view.advice.resize(23);
+  view.advice[21] = 5;
   view.heads.assign(12, 3), view.change_step.assign(12, 250), view.next_aspect.assign(12, 1);
   view.change_step[5] = -1;
   return view;
@@ -59,6 +63,12 @@ TEST(PageMessages, LeaveOutMeansOfNoCar) {
   EXPECT_FALSE(statistics.unequipped().has_mean_stop_time_s());
   EXPECT_FALSE(statistics.all().has_mean_delay_s());
   EXPECT_EQ(statistics.equipped_share(), 0.75) << "3 of 4 on the road";
+}
+
+TEST(PageMessages, CountTheCommandsThatEachRuleHasChanged) {
+  const Statistics statistics = statistics_of(two_cars());
+  EXPECT_EQ((std::vector<std::uint32_t>{statistics.overridden().begin(), statistics.overridden().end()}),
+            (std::vector<std::uint32_t>{1, 2, 3, 4, 5}));
 }
 
 TEST(PageMessages, WithAnIdealRadioEverythingArrivesAtOnce) {

@@ -76,6 +76,8 @@ TEST(ViewColumns, CarryTheCarsAndWhatIsMeasuredOfThem) {
   batch.guidance = {0};
   batch.bound_by = {2};
   batch.missed = {kNothingMissed};
+  batch.fate_vehicle = {0}, batch.fate_rsu = {0}, batch.fate_sequence = {1}, batch.fate = {2}, batch.fate_again = {0};
+  batch.fate_issued = {0}, batch.fate_commanded_mps2 = {1.0}, batch.fate_kind = {0}, batch.fate_speed_mps = {0.0};
   measures.add(batch);
   View view;
   UplinkWatch uplink;
@@ -85,9 +87,10 @@ TEST(ViewColumns, CarryTheCarsAndWhatIsMeasuredOfThem) {
   fill_radio(view, {});
   EXPECT_TRUE(view.well_formed());
   EXPECT_EQ(view.standing_steps, std::vector<std::uint32_t>{1});
-  EXPECT_EQ(view.advice_step, std::vector<Step>{-1});
+  EXPECT_EQ(view.advice_step, std::vector<Step>{0});
   EXPECT_EQ(view.uplink, std::vector<std::uint8_t>{255}) << "no unit";
   EXPECT_EQ(view.heard_step, std::vector<Step>{-1});
+  EXPECT_EQ(view.advice[2], 1U) << "changed by the guard";
   EXPECT_EQ(view.queue[1], 1U);
   EXPECT_EQ(view.figures.in_system, (std::vector<std::uint32_t>{1, 0, 1})) << "all, equipped, others";
   EXPECT_TRUE(std::isnan(view.figures.mean_stop_time_s[1])) << "of no car";

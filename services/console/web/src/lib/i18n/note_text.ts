@@ -3,7 +3,9 @@ import type { Note } from '../run/console.svelte';
 import { said } from './said';
 import { tOr } from './words.svelte';
 
-export function noteText({ kind, text }: Note): string {
+/** In a line; a whole plan in it is left out. */
+export function noteText({ kind, text: whole }: Note): string {
+  const text = whole.replace(/=\{.{20,}\}/, '={…}');
   switch (kind) {
     case 'phase':
       return tOr(`phase.${text}`, said(text));
@@ -15,6 +17,6 @@ export function noteText({ kind, text }: Note): string {
     case 'directive':
       return text;
     default:
-      return said(text);
+      return said(text.replace(/^\S+={…}: /, ''));
   }
 }

@@ -5,6 +5,7 @@ import type { ThinningRing } from './ring';
 export interface PlanePoint {
   closingMps: number; // own speed less that of the car ahead
   gapM: number; // head to head
+  aheadMps: number; // speed of the car ahead
 }
 
 /** A picture and the car's place in it. */
@@ -37,6 +38,7 @@ export function planePoint(scene: Scene, at: number): PlanePoint | null {
   return {
     closingMps: scene.speedMps[at] - scene.speedMps[ahead],
     gapM: scene.positionM[ahead] - scene.positionM[at],
+    aheadMps: scene.speedMps[ahead],
   };
 }
 

@@ -51,7 +51,7 @@ export class Console {
   /** The last step of a recording; null: a run that goes on. */
   recordedTo = $derived(this.hello?.recordedTo === undefined ? null : Number(this.hello.recordedTo));
   /** Whether values may be set. */
-  maySet = $derived(this.mayAct && this.recordedTo === null);
+  maySet = $derived(this.mayAct && !this.over && this.recordedTo === null);
   /** The newest changes of this page that can be taken back. */
   undoable = $derived(this.undos[this.undos.length - 1] ?? []);
 
@@ -155,6 +155,16 @@ export class Console {
     const from = this.scrubbed ?? this.scenes.last?.step ?? -1;
     const index = Math.max(0, this.scenes.indexAt(from) + by);
     this.scrubbed = index >= this.scenes.length - 1 ? null : (this.scenes.at(index)?.step ?? null);
+  }
+
+  /** Shows a step of the time before, or the picture that is kept next before it; at the end it is live. A recording goes there. */
+  lookAt(step: number): void {
+    if (this.recordedTo !== null) {
+      void this.seek(step);
+      return;
+    }
+    const place = Math.max(0, this.scenes.indexAt(step));
+    this.scrubbed = step >= (this.scenes.last?.step ?? 0) ? null : (this.scenes.at(place)?.step ?? null);
   }
 
   /** What has come is on the screen: the next pictures may come. */

@@ -86,7 +86,7 @@ function drawCar(context: CanvasRenderingContext2D, scale: number, scene: Scene,
   if (scene.equipped[i]) {
     context.fillStyle = palette.roofMark;
     context.beginPath();
-    context.arc(-lengthM * 0.58, 0, 0.42, 0, 2 * Math.PI);
+    context.arc(-lengthM * 0.58, 0, 0.5, 0, 2 * Math.PI);
     context.fill();
   }
   if (scene.accelerationMps2[i] < BRAKE_LIGHTS_MPS2 || scene.speedMps[i] < STANDS_MPS) {

@@ -31,7 +31,7 @@ describe('the last minute of a car', () => {
 
   it('has a place in the plane of figure 5 where a car is ahead', () => {
     const seen = seenOf(ring(scene(10), scene(20, {}, [4, 8])), 8, 20, 600);
-    expect(planeTrail(seen)).toEqual([{ closingMps: 2, gapM: 20 }]);
+    expect(planeTrail(seen)).toEqual([{ closingMps: 2, gapM: 20, aheadMps: 10 }]);
   });
 });
 
