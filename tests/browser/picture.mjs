@@ -14,6 +14,11 @@ const run = await startRun(['--pace', '100', '--seed', '1']);
 try {
   const { page, heard } = await openPage(browser, run.url, { viewport: WINDOW, colorScheme: 'light' });
   await until(async () => (await stepOf(page)) >= SETTLED, `step ${SETTLED}`, 60_000);
+  // A minute of closer pictures: the car's trail is made of them.
+  run.ctl('pace', '10');
+  await until(() => heard.status.paceAchieved < 12, 'ten times real time');
+  const close = Number(heard.picture.step) + 600;
+  await until(() => Number(heard.picture.step) > close, 'a minute', 60_000);
   run.ctl('pace', '1');
   await until(() => heard.status.paceAchieved < 1.1, 'real time');
   const last = Number(heard.picture.step) + WITHIN;
