@@ -77,7 +77,10 @@ Expected<std::string> Member::join() {
     }
   }
   if (refused_) return *refused_;
-  if (!scenario_) return Error{"run " + settings_.address.run, "ended before this process could join"};
+  if (!scenario_) {
+    return Error{"run " + settings_.address.run,
+                 "ended before this process could join" + (end_ && !end_->text.empty() ? ": " + end_->text : "")};
+  }
   joined_ = true;
   return *scenario_;
 }
@@ -99,7 +102,8 @@ void Member::poll() {
 
 void Member::receive(const Control& control) {
   const bool to_me = control.to == participant_->self();
-  if (sequence_ && control.sequence != *sequence_ + 1) {
+  // Before it is welcomed the clock may not have matched it yet: what is lost then was said to others.
+  if (scenario_ && sequence_ && control.sequence != *sequence_ + 1) {
     end_ = MemberEnd{MemberEnd::Kind::kAborted, settings_.role,
                      "lost a control message (expected number " + std::to_string(*sequence_ + 1) + ", got " +
                          std::to_string(control.sequence) + ")"};

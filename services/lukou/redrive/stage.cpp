@@ -35,7 +35,7 @@ Expected<std::unique_ptr<Stage>> Stage::open(const bus::Address& address, ClockS
     if (!joined) return joined.error();
     stage->absent_.push_back({rsu_role(rsu), std::move(joined).value()});
   }
-  settings.incarnation = stage->clock_->self();
+  settings.incarnation = settings.launcher = stage->clock_->self();
   stage->core_.emplace(std::move(settings));
   stage->up_.emplace(*stage->clock_);
   stage->control_.emplace(*stage->clock_);
@@ -140,7 +140,8 @@ void Stage::close(Step step) {
 }
 
 void Stage::lost(const std::string& role, const std::string& how) {
-  core_->receive(process::wall_s(), {.kind = Up::Kind::kLost, .role = role, .text = how});
+  core_->receive(process::wall_s(),
+                 {.kind = Up::Kind::kLost, .incarnation = clock_->self(), .role = role, .text = how});
   send();
 }
 
