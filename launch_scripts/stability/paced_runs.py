@@ -134,11 +134,12 @@ def arguments():
     parser = argparse.ArgumentParser(description="Runs side by side, their pace switched while they go on.")
     parser.add_argument("scenarios", nargs="+", help="started at once, in each round")
     parser.add_argument("--rounds", type=int, default=10, help="one after the other, round n with seed n [10]")
+    parser.add_argument("--first", type=int, default=1, help="number of the first round [1]")
     parser.add_argument("--duration", type=float, required=True, help="simulated seconds of each run")
     parser.add_argument("--every", type=float, default=5.0, help="wall seconds at full speed between switches [5]")
     options = parser.parse_args()
-    if options.rounds < 1 or not options.duration > 0 or not options.every > 0:
-        parser.error("--rounds, --duration and --every are greater than 0")
+    if options.rounds < 1 or options.first < 1 or not options.duration > 0 or not options.every > 0:
+        parser.error("--rounds, --first, --duration and --every are greater than 0")
     return options
 
 
@@ -156,7 +157,7 @@ def main():
     bad = 0
     folder = pathlib.Path(tempfile.mkdtemp(prefix="lukou-stability-"))
     try:
-        for number in range(1, options.rounds + 1):
+        for number in range(options.first, options.first + options.rounds):
             bad += round_of(number, options, folder)
     except Interrupted as stop:
         return 128 + stop.args[0]
