@@ -29,7 +29,8 @@ class Sweeps {
   double runs_per_minute(int jobs) {
     const fs::path out = folder_ / "study";
     const auto begin = std::chrono::steady_clock::now();
-    const Finished ended = lukou({"sweep", study_.string(), "--jobs", std::to_string(jobs), "--quiet", "--out", out});
+    const Finished ended =
+        lukou::test::lukou({"sweep", study_.string(), "--jobs", std::to_string(jobs), "--quiet", "--out", out});
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (ended.code != 0) {
       std::fprintf(stderr, "%s", ended.err.c_str());
@@ -55,8 +56,8 @@ class Sweeps {
 
   std::string manifest_of_run_alone(const fs::path& result, int seed) {
     const fs::path out = folder_ / ("alone-" + std::to_string(seed));
-    const Finished ended =
-        lukou({"run", (result / "scenario.textproto").string(), "--mode", "in-process", "--quiet", "--out", out});
+    const Finished ended = lukou::test::lukou(
+        {"run", (result / "scenario.textproto").string(), "--mode", "in-process", "--quiet", "--out", out});
     if (ended.code != 0) std::fprintf(stderr, "%s", ended.err.c_str());
     return content(out / "manifest.json");
   }
@@ -71,9 +72,9 @@ class Sweeps {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int pairs = static_cast<int>(number_argument(argc, argv, "--pairs", 5));
-  const int runs = static_cast<int>(number_argument(argc, argv, "--runs", 8));
-  const double duration_s = number_argument(argc, argv, "--duration", 3600.0);
+  const int pairs = static_cast<int>(number_argument(argc, argv, "pairs", 5));
+  const int runs = static_cast<int>(number_argument(argc, argv, "runs", 8));
+  const double duration_s = number_argument(argc, argv, "duration", 3600.0);
   Sweeps sweeps(runs, duration_s);
   std::printf(
       "%d runs of %.0f s a sweep\n| pair | one job, runs/min | two jobs, runs/min | times |\n|---|---|---|---|\n", runs,
