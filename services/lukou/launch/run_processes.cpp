@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr double kPoll_s = 0.05;
 constexpr double kLeave_s = 3.0;         ///< after the clock has left, until SIGTERM
 constexpr double kKill_s = 1.5;          ///< after SIGTERM, until SIGKILL
-constexpr double kClockSilent_s = 5.0;   ///< it speaks ten times a second, and its members wait 2 s for it
+constexpr double kClockSilent_s = 15.0;  ///< it speaks ten times a second; a crowded core has kept one from it for 5 s
 constexpr double kClockStarts_s = 15.0;  ///< until its first word
 
 /// Programs lie beside this one.
