@@ -127,15 +127,9 @@ Expected<Side> open_side(const std::string& name) {
 Expected<Done> read_values(Side& side, const std::vector<std::string>& measures) {
   for (Group& group : side.groups)
     for (std::size_t i = 0; i < group.runs.size(); ++i) {
-      const auto content = scenario::read_file(group.folders[i] / "summary.json");
-      if (!content) return content.error();
-      const Json summary = Json::parse(content.value(), nullptr, false);
-      if (!summary.is_object()) return Error{(group.folders[i] / "summary.json").string(), "is no JSON object"};
-      group.runs[i].values.clear();
-      for (const std::string& measure : measures) {
-        group.runs[i].values.push_back(measure == studies::kSettlingTime ? settling_time_s(group.runs[i].series)
-                                                                         : studies::value_of(summary, measure));
-      }
+      const auto summary = studies::read_summary(group.folders[i]);
+      if (!summary) return summary.error();
+      group.runs[i].values = studies::values_of(group.runs[i], summary.value(), measures);
     }
   return Done{};
 }

@@ -24,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPoll_s = 0.05;
-constexpr double kLeave_s = 3.0;         ///< after the clock has left, until SIGTERM
-constexpr double kKill_s = 1.5;          ///< after SIGTERM, until SIGKILL
-constexpr double kClockSilent_s = 15.0;  ///< it speaks ten times a second; a crowded core has kept one from it for 5 s
-constexpr double kClockStarts_s = 15.0;  ///< until its first word
+constexpr double kLeave_s = 3.0;  ///< after the clock has left, until SIGTERM
+constexpr double kKill_s = 1.5;   ///< after SIGTERM, until SIGKILL
+/// It speaks ten times a second; a crowded core has kept one from it for 5 s.
+constexpr double kClockSilent_s = 15.0;
 
 /// Programs lie beside this one.
 fs::path program(const std::string& name) { return fs::read_symlink("/proc/self/exe").parent_path() / name; }
@@ -182,7 +182,7 @@ class Session {
     watched_s_ = now_s;
     if (!request_.watchdog || over() || clock_gone_s_ != 0.0 || clock_stands_) return;
     const double silent_s = std::min(client_->clock_silent_s(), now_s - awake_s_);
-    if (silent_s < (client_->state() ? kClockSilent_s : kClockStarts_s)) return;
+    if (silent_s < kClockSilent_s) return;
     clock_stands_ = true;
     children_.signal(std::string(kClockRole), SIGKILL);
   }

@@ -19,10 +19,9 @@ Expected<Done> read_result(const StudyFolder& folder, RunRecord& record) {
   auto parsed = results::parse_manifest(manifest.value(), (result / results::kManifest).string());
   if (!parsed) return parsed.error();
   record.manifest = std::move(parsed).value();
-  const auto content = scenario::read_file(result / "summary.json");
-  if (!content) return content.error();
-  const Json summary = Json::parse(content.value(), nullptr, false);
-  if (!summary.is_object()) return Error{(result / "summary.json").string(), "is no JSON object"};
+  const auto read = read_summary(result);
+  if (!read) return read.error();
+  const Json& summary = read.value();
   record.simulated_s = value_of(summary, "simulated_s").value_or(0.0);
   record.warmup_s = value_of(summary, "warmup_s").value_or(0.0);
   record.arrived = value_of(summary, "vehicles_arrived").value_or(0.0);
@@ -30,9 +29,7 @@ Expected<Done> read_result(const StudyFolder& folder, RunRecord& record) {
   auto series = read_series(folder.run(record.key) / kSeriesFile);
   if (!series) return series.error();
   record.series = std::move(series).value();
-  for (const std::string& measure : folder.study().measures) {
-    record.values.push_back(measure == kSettlingTime ? settling_time_s(record.series) : value_of(summary, measure));
-  }
+  record.values = values_of(record, summary, folder.study().measures);
   return Done{};
 }
 
@@ -88,6 +85,23 @@ std::uint32_t next_seeds(const std::vector<double>& values, std::uint32_t seeds,
 }
 
 }  // namespace
+
+Expected<Json> read_summary(const std::filesystem::path& result) {
+  const auto content = scenario::read_file(result / "summary.json");
+  if (!content) return content.error();
+  Json summary = Json::parse(content.value(), nullptr, false);
+  if (!summary.is_object()) return Error{(result / "summary.json").string(), "is no JSON object"};
+  return summary;
+}
+
+std::vector<std::optional<double>> values_of(const RunRecord& run, const Json& summary,
+                                             const std::vector<std::string>& measures) {
+  std::vector<std::optional<double>> values;
+  for (const std::string& measure : measures) {
+    values.push_back(measure == kSettlingTime ? settling_time_s(run.series) : value_of(summary, measure));
+  }
+  return values;
+}
 
 std::string_view name(RunRecord::State state) {
   switch (state) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +35,12 @@ struct RunRecord {
 };
 /// "done", "anomaly", "failed", "missing"
 std::string_view name(RunRecord::State state);
+
+/// summary.json of a result folder.
+Expected<nlohmann::ordered_json> read_summary(const std::filesystem::path& result);
+/// What the measures are in a run with this summary; the settling time is of its series.
+std::vector<std::optional<double>> values_of(const RunRecord& run, const nlohmann::ordered_json& summary,
+                                             const std::vector<std::string>& measures);
 
 /// The runs of a study, point after point, seed after seed.
 struct Gathered {
